@@ -181,7 +181,7 @@ TEST_CASE("keys so near each other that no number is the rate between them are r
         const Ran ran = folder.run(with_file(verb.arguments, file));
         CHECK(ran.code == 1);
         CHECK_MESSAGE(ran.err.find(".json:1:") != std::string::npos, ran.err);
-        CHECK_MESSAGE(ran.err.find("changes faster than numbers can tell, within ") != std::string::npos, ran.err);
+        CHECK_MESSAGE(ran.err.find("changes faster than a number can tell, within ") != std::string::npos, ran.err);
       }
     }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Coordinates with alpha multiplied in, as they are mixed, there and back.
+// Conversion to and from premultiplied coordinates, the form in which colors are mixed.
 
 #include <tweenfall/curves/values.h>
 
@@ -8,7 +8,7 @@
 
 namespace tweenfall::color_spaces {
 
-// Coordinates times alpha, but for a hue, with rates by the product rule.
+// Coordinates times alpha, except a hue, with rates by the product rule.
 inline Sample<Vec4> premultiplied(const Sample<Vec4>& s, int hue) noexcept {
   Sample<Vec4> result = s;
   const math::Jet alpha{s.value[3], s.rate[3], s.acceleration[3]};
@@ -22,7 +22,7 @@ inline Sample<Vec4> premultiplied(const Sample<Vec4>& s, int hue) noexcept {
   return result;
 }
 
-// The way back; where nothing is visible the coordinates are 0 and rest.
+// The way back; where alpha is 0 the coordinates are 0, at rest.
 inline Sample<Vec4> divided(const Sample<Vec4>& s, int hue) noexcept {
   Sample<Vec4> result = s;
   const math::Jet alpha{s.value[3], s.rate[3], s.acceleration[3]};

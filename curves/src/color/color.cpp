@@ -7,7 +7,7 @@ namespace {
 
 using color_spaces::Triple;
 
-// Below these the hue of a color is noise: rounding of the matrices leaves grays a trace of it.
+// With less chroma than this the hue of a color is noise: rounding of the matrices leaves a trace of it in grays.
 constexpr double oklab_gray = 4e-6, lab_gray = 1.5e-3;
 
 Triple to_coordinates(const Triple& linear, ColorSpace space) noexcept {

@@ -1,6 +1,6 @@
 #pragma once
 
-// One color space a file: three coordinates there and back, on numbers that carry their derivatives.
+// One file per color space: its three coordinates to and from linear ones, on numbers that carry their derivatives.
 
 #include <array>
 
@@ -45,14 +45,14 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 [[nodiscard]] Triple to_lab(const Triple& linear) noexcept;
 [[nodiscard]] Triple from_lab(const Triple& lab) noexcept;
 
-// Hue in radians (0 for a gray), least and largest of encoded red, green and blue, and how far these are apart
-// (exactly 0 for a gray): what the three spaces below are made of.
+// Hue in radians (0 for a gray), least and largest of encoded red, green and blue, and the distance between these
+// (exactly 0 for a gray): the three spaces below are made of them.
 struct Hexcone {
   math::Jet hue, low, high, range;
 };
 [[nodiscard]] Hexcone hexcone(const Triple& srgb) noexcept;
 
-// The brightest color of a hue that has a part of 0 and a part of 1.
+// The color of a hue whose smallest part is 0 and whose largest part is 1.
 [[nodiscard]] Triple pure_hue(const math::Jet& hue) noexcept;
 
 // Hue, saturation and lightness; hue, saturation and value; hue, whiteness and blackness.
@@ -63,7 +63,7 @@ struct Hexcone {
 [[nodiscard]] Triple srgb_to_hwb(const Triple& srgb) noexcept;
 [[nodiscard]] Triple hwb_to_srgb(const Triple& hwb) noexcept;
 
-// The plane of the second and third coordinate in polar form. Below `gray` the chroma counts as none.
+// The plane of the second and third coordinate in polar form. A chroma below `gray` counts as zero.
 [[nodiscard]] Triple to_polar(const Triple& plane, double gray) noexcept;
 [[nodiscard]] Triple from_polar(const Triple& polar) noexcept;
 

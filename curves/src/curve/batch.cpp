@@ -29,7 +29,7 @@ bool is_plain(const Data& data) {
          std::ranges::all_of(data.kinds, [](const auto& kind) { return kind.degree <= 3; });
 }
 
-// 1 from the stretch's end on, and where `start` is infinitely early.
+// 1 at and after the end of the stretch, and where `start` is minus infinity.
 double position(double time, double start, double inverse) noexcept {
   const double s = (time - start) * inverse;
   return s < 1 ? s : 1;
@@ -95,7 +95,7 @@ CurveBatch::CurveBatch(std::span<const Curve<double>> curves) : tracks_(curves.s
   for (std::size_t i = 0; i < size(); ++i) remember(i);
 }
 
-// The stretch that would hold `time` if all spans were as long.
+// The stretch that would hold `time` if all spans were equally long.
 std::uint32_t CurveBatch::guess(const Track& track, double time) noexcept {
   if (!(time >= track.start)) return 0;
   if (time >= track.end) return track.last;
@@ -106,7 +106,7 @@ std::uint32_t CurveBatch::guess(const Track& track, double time) noexcept {
 
 // The stretch that holds `time`.
 std::uint32_t CurveBatch::search(std::size_t track, double time) const noexcept {
-  std::uint32_t first = 0, behind = tracks_[track].last + 1;  // the first is not later than the time
+  std::uint32_t first = 0, behind = tracks_[track].last + 1;  // `first` never starts later than `time`
   while (behind - first > 1) {
     const std::uint32_t middle = first + (behind - first) / 2;
     (stretch(middle, track).start <= time ? first : behind) = middle;
@@ -125,8 +125,8 @@ void CurveBatch::remember(std::size_t i) noexcept {
   c3_[i] = found.c3;
 }
 
-// Calls `found` with each of some tracks when its place is that of `time`. Each is guessed some tracks ahead and mended
-// fewer ahead, so that what they need is on its way from memory while others are worked at.
+// Calls `found` for each of some tracks once its `place_` is the stretch that holds `time`. The guess is made and
+// corrected some tracks ahead, so that what it needs is loaded from memory while other tracks are processed.
 template <class TrackOf, class Found>
 void CurveBatch::seek(std::size_t count, double time, const TrackOf& track_of, const Found& found) noexcept {
   constexpr std::size_t ahead = 16;
@@ -136,7 +136,7 @@ void CurveBatch::seek(std::size_t count, double time, const TrackOf& track_of, c
       place_[i] = guess(tracks_[i], time);
       __builtin_prefetch(&stretch(place_[i], i));
     }
-    // Mostly it is the one guessed or one beside it; which one is hard to foresee, so there is no branch.
+    // Usually it is the stretch guessed or one beside it; which one is hard to predict, so there is no branch.
     if (k >= ahead && k - ahead < count) {
       const std::size_t i = track_of(k - ahead);
       const Stretch& guessed = stretch(place_[i], i);
@@ -152,17 +152,17 @@ void CurveBatch::seek(std::size_t count, double time, const TrackOf& track_of, c
   }
 }
 
-// The numbers of all curves at `time`, which is near the last one.
+// Remembers the stretch of each curve at `time`, which is near the time before.
 void CurveBatch::go_on(double time) noexcept {
   const std::size_t count = size();
-  // Listed first, since which ones change is hard to foresee: the processor would wait for each.
+  // Listed first without a branch: which ones change is hard to predict.
   std::size_t changed = 0;
   for (std::size_t i = 0; i < count; ++i) {
     stale_[changed] = static_cast<std::uint32_t>(i);
     changed += static_cast<std::size_t>(!(time >= start_[i])) | static_cast<std::size_t>(!(time < end_[i]));
   }
   if (time > time_) {
-    // Mostly the next stretch holds the time.
+    // Usually the next stretch holds the time.
     for (std::size_t k = 0; k < changed; ++k) __builtin_prefetch(&stretch(place_[stale_[k]] + 1, stale_[k]));
     std::size_t far = 0;
     for (std::size_t k = 0; k < changed; ++k) {
@@ -196,7 +196,7 @@ void CurveBatch::play(double time, double* values, double* rates) noexcept {
     rates[i] = math::cubic_rate(c1[i], c2[i], c3[i], spans::position(time, start[i], inverse[i])) * inverse[i];
 }
 
-// Nothing is remembered but where the curves are: the next time will probably be as far away.
+// Remembers only the numbers of the stretches: the next time will probably be as far away.
 void CurveBatch::jump(double time, double* values, double* rates) noexcept {
   remembered_ = false;
   seek(

@@ -9,7 +9,7 @@
 namespace tweenfall::spans {
 
 /// Gives `span` the coefficients and the warp of a Bezier from `from` that moves by `change`. `first` and `second` are
-/// what the handles move by, at their full widths, from the first key on and up to the second.
+/// the movements from the first key to its handle and from the second handle to its key, at full widths.
 template <class SpanType, class V>
 void fill_bezier(SpanType& span, const V& from, const V& change, const V& first, const V& second,
                  const HandleWidths& widths, Overlong rule) {

@@ -10,7 +10,7 @@ namespace tweenfall::spans {
 namespace {
 
 // The extent and the rules outside that all parts share; where they differ, or a slope is stated, the sum is endless,
-// and each part goes on by its own rule. Constants have no say.
+// and each part continues by its own rule. Constants are ignored.
 struct Extent {
   double start = -std::numeric_limits<double>::infinity(), end = -start;
   Outside before = Outside::hold, after = Outside::hold;

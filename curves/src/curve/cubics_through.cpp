@@ -1,12 +1,12 @@
-// Curves of nothing but cubics through their knots, straight into what a curve keeps.
+// Curves that are cubics through their knots throughout, written directly in the form that a curve stores.
 
 #include "curve/curve_data.h"
 
 namespace tweenfall::spans {
 namespace {
 
-// Sums of coefficients up to this, over durations down to its inverse, stay numbers in every rate; what goes further is
-// looked at span by span.
+// With sums of coefficients up to this, over durations down to its inverse, every rate is finite; anything beyond is
+// checked span by span.
 constexpr double surely_finite = 1e90;
 
 template <class T>

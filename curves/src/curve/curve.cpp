@@ -18,14 +18,14 @@ Sample<T> with_rates(const T& value, const T& first, const T& second, double inv
   return {value, first * inverse, second * (inverse * inverse)};
 }
 
-// Derivatives in the polynomial's own variable, to derivatives in the position u of the span.
+// From derivatives with respect to the polynomial's own variable to those with respect to the position u in the span.
 template <class V>
 void through(const Warp::Result& w, math::Polynomial<V>& p) noexcept {
   p.second = p.second * (w.ds * w.ds) + p.first * w.dds;
   p.first = p.first * w.ds;
 }
 
-// A turn from one rotation to the next as keys alone make it. An even one keeps its axis and its speed.
+// A turn from one rotation to the next, as made by keys alone. A linear one keeps its axis and its speed.
 template <class Data>
 Sample<Quat> sample_plain_turn(const Data& d, std::size_t i, const Segment& s, double u) noexcept {
   const Vec3* rows = d.turns.data() + s.first;
@@ -319,7 +319,7 @@ Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
 template <class T>
 T Curve<T>::value(double time, Side side) const noexcept {
   if constexpr (std::is_same_v<T, double>) {
-    // The most frequent question of all, without the work for rates.
+    // The most frequent query of all, without the work for rates.
     const Data& d = *data_;
     if (time >= d.start && time < d.end && side == Side::out && d.warps.empty() && d.times) {
       const spans::Segment s = d.segment(d.times->locate(time));

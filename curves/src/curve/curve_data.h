@@ -1,6 +1,6 @@
 #pragma once
 
-// What a curve stores: spans laid out for reading in one sweep, or a formula.
+// What a curve stores: spans laid out to be read in sequence, or a formula.
 
 #include <tweenfall/curves/curve.h>
 
@@ -32,8 +32,8 @@ struct Stored<Quat> {
 template <class T>
 struct CurveEnd {
   OutsideRule<T> rule{};
-  std::optional<T> value{};        ///< what arrives at the first knot, or leaves the last, where spans say otherwise
-  std::optional<Rate<T>> slope{};  ///< of the end's key on its outer side, where that is not the curve's own
+  std::optional<T> value{};  ///< the value arriving at the first knot or leaving the last, if not that of the spans
+  std::optional<Rate<T>> slope{};  ///< of the end key on its outer side, if it is not the curve's own
 
   [[nodiscard]] const std::optional<Rate<T>>& straight() const noexcept { return rule.slope ? rule.slope : slope; }
 };
@@ -63,7 +63,7 @@ namespace tweenfall {
 template <class T>
 struct Curve<T>::Data {
   using Row = typename spans::Stored<T>::type;
-  // What spans are like: one for each of them, or a single one where all are alike.
+  // The kind of a span: one for each of them, or a single one where all are alike.
   struct Kind {
     std::uint32_t first;  // row of coefficients; where all are alike they follow each other
     std::int16_t degree;
@@ -76,17 +76,19 @@ struct Curve<T>::Data {
 
   std::shared_ptr<const SpanTimes> times;  // null where there is a formula
   std::vector<Kind> kinds;
-  std::uint32_t rows = 0;  // for each span, where all are alike
+  std::uint32_t rows = 0;  // per span, where all are alike
   std::vector<Row> pool;
-  // The value and the rate at each knot, where all spans are the cubics through them. They stand in place of the pool
-  // and take half of its room; numbers, of which most is asked most often, always have a pool.
+  // The value and the rate at each knot, where all spans are the cubics through them. They replace the pool and take
+  // half of its room; curves of numbers, which are sampled most often, always have a pool.
   std::vector<Row> passed;
-  // Values on arrival, one for each span; only the last where each arrives at what leaves.
+  // Values on arrival, one for each span; only the last one where every span arrives at the value with which the next
+  // starts.
   std::vector<T> ends;
   std::vector<Warp> warps;  // empty, or one for each span
 
-  // Rotations only: what the exponential multiplies, one for each span, and its rows where all are exponentials of the
-  // same degree without warp or spin: three numbers each, from the first power on. They stand in place of the pool.
+  // Rotations only: the rotation that the exponential multiplies, one for each span; and, where all spans are
+  // exponentials of the same degree without warp or spin, their rows: three numbers each, from the first power on, in
+  // place of the pool.
   std::vector<T> starts;
   std::vector<Vec3> turns;
   bool plain_turns = false;
@@ -95,7 +97,7 @@ struct Curve<T>::Data {
   std::vector<double> marks;  // knots that a formula states
   std::vector<double> keys;   // the knots that are keys; empty where all are
   Formula formula;            // empty where there are spans
-  // Set where the formula answers at every time by itself and makes the curve anew with other rules outside.
+  // Set where the formula can be evaluated at every time; rebuilds the curve with other rules outside.
   std::function<Curve(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt;
 
   [[nodiscard]] std::size_t span_count() const noexcept { return times ? times->count() : 0; }
@@ -165,8 +167,8 @@ struct CurveAccess {
   static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end,
                              const spans::CurveEnd<T>& before = {}, const spans::CurveEnd<T>& after = {});
 
-  /// The cubics through values with one rate at each of two or more knots, `dimensions` numbers per rate: the curve
-  /// that their spans are, without making them. Nothing where numbers are so large that each span is to be looked at.
+  /// The curve of the cubics through values with one rate at each of two or more knots, `dimensions` numbers per rate,
+  /// made without their spans. Empty where numbers are so large that each span must be checked.
   /// @param times  finite and increasing
   template <class T>
   static std::optional<Curve<T>> cubics_through(std::span<const double> times, std::span<const T> values,
@@ -182,8 +184,8 @@ struct CurveAccess {
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
-  /// What arrives at the first knot (`early`) or leaves the last: that from which the curve goes on, and between which
-  /// loops with an offset climb.
+  /// The value arriving at the first knot (`early`) or leaving the last: the curve continues from it, and the
+  /// difference of the two is what loops with an offset add per play.
   template <class T>
   static T end_value(const Curve<T>& curve, bool early) noexcept;
 
@@ -200,7 +202,8 @@ struct CurveAccess {
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
-  /// A curve that another one is made into: it answers at all times, `rebuilt` makes it anew with other rules outside.
+  /// A curve that another one is converted into: `formula` holds at all times, and `rebuilt` makes the curve again with
+  /// other rules outside.
   template <class T>
   static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end,
                                const spans::Breaks& breaks, const OutsideRule<T>& before, const OutsideRule<T>& after,
@@ -218,7 +221,7 @@ struct CurveAccess {
   }
 
   /// The values of `inner` as values of another kind: `sampler(inner, time, side)`. Rules outside are those of `inner`;
-  /// slopes stated for the result are its own.
+  /// a slope stated later applies to the result, not to `inner`.
   template <class T, class Inner, class Sampler>
   static Curve<T> converted(const Curve<Inner>& inner, const Sampler& sampler) {
     const OutsideRule<Inner>&before = inner.rule_before(), &after = inner.rule_after();

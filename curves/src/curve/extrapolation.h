@@ -30,7 +30,7 @@ Sample<T> straight_on(const Sample<T>& from, double seconds) noexcept {
   }
 }
 
-// `sample` of a later play of a curve that leads from `start` to `end`, each play starting where the last ended.
+// `sample` moved to a later play of a curve that leads from `start` to `end`, each play starting where the last ended.
 template <class T>
 Sample<T> offset_by_plays(const Sample<T>& sample, const T& start, const T& end, double plays) noexcept {
   if constexpr (std::is_same_v<T, Quat>) {
@@ -47,7 +47,7 @@ inline bool loops(Outside rule) noexcept {
   return rule != Outside::hold && rule != Outside::linear;
 }
 
-// Where counted plays are over and the curve comes to rest; none where it goes on for ever.
+// The time at which a limited number of plays is over and the curve comes to rest; none where it goes on for ever.
 template <class T>
 std::optional<double> last_play(const OutsideRule<T>& rule, double start, double end, bool early) noexcept {
   if (!loops(rule.rule) || !(rule.plays > 0)) return std::nullopt;
@@ -55,7 +55,7 @@ std::optional<double> last_play(const OutsideRule<T>& rule, double start, double
   return early ? start - beyond : end + beyond;
 }
 
-// Whether `time` lies further out than `end`, which is passed on the side that faces away from the curve.
+// Whether `time` lies further out than `end`; at `end` itself, whether `side` faces away from the curve.
 inline bool is_beyond(double time, Side side, double end, bool early) noexcept {
   return time == end ? side == (early ? Side::in : Side::out) : early ? time < end : time > end;
 }
@@ -84,8 +84,8 @@ inline bool is_backward(Outside rule, double plays) noexcept {
   return rule == Outside::pingpong && std::fmod(plays, 2) != 0;
 }
 
-// Beyond the ends by `rule`; `inside(time, side)` answers from start to end, and `end_value(early)` with the values
-// that arrive at the first knot and leave the last one.
+// The sample beyond the ends by `rule`; `inside(time, side)` samples from start to end, and `end_value(early)` gives
+// the value arriving at the first knot or leaving the last one.
 template <class T, class Inside, class EndValue>
 Sample<T> sample_outside(Outside rule, double start, double end, double time, Side side, const Inside& inside,
                          const EndValue& end_value) noexcept {
@@ -99,7 +99,7 @@ Sample<T> sample_outside(Outside rule, double start, double end, double time, Si
   }
 
   const auto [local, plays] = played_time(time, start, duration, side == Side::in);
-  // Arriving at a seam is the end of the play before.
+  // Arriving at a seam counts as the end of the play before.
   const bool arriving = local == duration;
   if (is_backward(rule, plays)) {
     // The difference may round to before the start.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Spans as a curve is given them: what is wrong with them, and what they have in common, so that it keeps less.
+/// The spans given to a curve: checks, and what they have in common, so that the curve stores less.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ inline int rows_of(const RotationSpan& span) noexcept {
   return span.form == RotationSpan::Form::nested ? rotation_rows : span.degree + 1;
 }
 
-/// Values, rates and accelerations must be finite numbers, with room for what a warp makes of them.
+/// Values, rates and accelerations must be finite, also after a warp has scaled them.
 template <class SpanType>
 void check_size(std::size_t index, const SpanType& s) {
   double value = 0, rate = 0, acceleration = 0;
@@ -45,7 +45,7 @@ void check_size(std::size_t index, const SpanType& s) {
     constexpr double most = 1e15;  // beyond it no digit is left below a turn
     const double turn = value + s.spin.cwiseAbs().sum();
     if (!(turn <= most)) refuse(index, s.start, "turns too far to tell where it ends, by more than 1e15 rad");
-    // Axes that turn themselves add the square of the rate to the acceleration.
+    // Where the axis of a turn moves, it adds the square of the rate to the acceleration.
     rate += turn;
     acceleration += rate * rate;
   }
@@ -56,10 +56,10 @@ void check_size(std::size_t index, const SpanType& s) {
     acceleration = room * (rate + acceleration);
   }
   const double inverse = 1 / s.duration;
-  if (!std::isfinite(value)) refuse(index, s.start, "adds up to values beyond what numbers hold");
+  if (!std::isfinite(value)) refuse(index, s.start, "adds up to values too large for a number");
   if (!std::isfinite(inverse * inverse) || !std::isfinite(rate * inverse) ||
       !std::isfinite(acceleration * (inverse * inverse)))
-    refuse(index, s.start, "changes faster than numbers can tell, within " + text_of(s.duration) + " s");
+    refuse(index, s.start, "changes faster than a number can tell, within " + text_of(s.duration) + " s");
 }
 
 template <class SpanType>
@@ -76,7 +76,7 @@ void check(std::span<const SpanType> spans) {
     for (int k = 0; k < rows_of(s); ++k)
       if (!all_finite(s.coefficients[static_cast<std::size_t>(k)]))
         refuse(i, s.start,
-               "needs finite numbers, no further apart than numbers hold; coefficient " + std::to_string(k) + " is " +
+               "needs finite numbers whose differences are finite too; coefficient " + std::to_string(k) + " is " +
                    text_of(s.coefficients[static_cast<std::size_t>(k)]));
     if (!all_finite(s.end)) refuse(i, s.start, "has a non-finite end value " + text_of(s.end));
     if constexpr (std::is_same_v<SpanType, RotationSpan>)
@@ -101,7 +101,7 @@ bool are_alike(std::span<const SpanType> spans) {
   });
 }
 
-/// Whether nothing but even or cubic turns from one rotation to the next is there, as keys alone make.
+/// Whether all spans are linear or cubic turns from one rotation to the next, as made by keys alone.
 inline bool are_plain_turns(std::span<const RotationSpan> spans) {
   return are_alike(spans) && std::ranges::all_of(spans, [](const RotationSpan& s) {
            if (s.form != RotationSpan::Form::exponential || !s.spin.isZero(0)) return false;
@@ -111,7 +111,7 @@ inline bool are_plain_turns(std::span<const RotationSpan> spans) {
          });
 }
 
-/// Whether each span ends, to the bit, with what leaves it there.
+/// Whether each span ends, to the bit, at the value with which the next one starts.
 template <class SpanType>
 bool are_joined(std::span<const SpanType> spans) {
   for (std::size_t i = 0; i + 1 < spans.size(); ++i)

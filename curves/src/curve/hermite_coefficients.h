@@ -13,17 +13,17 @@ void cubic_coefficients(const V& from, const V& change, const V& d0, const V& d1
   c[3] = d0 + d1 - 2 * change;
 }
 
-/// The same over `duration` seconds, from and to values that each have their rate behind them.
+/// The same over `duration` seconds; `ends` holds the first value, its rate, the last value and its rate.
 template <class V>
 void cubic_through(const V* ends, double duration, V* c) {
   const V change = ends[2] - ends[0], d0 = duration * ends[1], d1 = duration * ends[3];
   cubic_coefficients(ends[0], change, d0, d1, c);
 }
 
-/// From values and slopes as above, of degree 5, with the second derivatives e0 and e1 too.
+/// The quintic from values and slopes as above, with the second derivatives e0 and e1 too.
 template <class V>
 void quintic_coefficients(const V& from, const V& change, const V& d0, const V& d1, const V& e0, const V& e1, V* c) {
-  // What the polynomial of degree 2 from the start leaves to be made up at the end, for value, slope and bend.
+  // By how much the quadratic from the start misses value, slope and second derivative at the end.
   const V value = change - d0 - 0.5 * e0, slope = d1 - d0 - e0, bend = e1 - e0;
   c[0] = from;
   c[1] = d0;

@@ -7,8 +7,8 @@
 namespace tweenfall::spans {
 namespace {
 
-// Value and rate of a cubic without the acceleration, number by number, in every bit as `cubic_through` and
-// `evaluate_polynomial` give them.
+// Value and rate of a cubic without the acceleration, component by component, with the same bits as `cubic_through` and
+// `evaluate_polynomial` give.
 struct CubicAt {
   double s, inverse, rate;
 
@@ -40,7 +40,7 @@ struct CubicAt {
 
 namespace tweenfall {
 
-// Where one time lies in the knots that were asked for last.
+// Samples at one time; remembers where it lies among the knots used last.
 class MotionCurves::Sampler {
  public:
   Sampler(const MotionCurves& curves, double time, Side side, double rate) noexcept
@@ -52,7 +52,7 @@ class MotionCurves::Sampler {
     if (thing.scale.curve >= 0) sample(thing.scale, motion.pose.scale, motion.scale_rate);
   }
 
-  // Has the numbers of a thing that comes later brought from memory.
+  // Prefetches the numbers of a thing that will be sampled soon.
   void fetch(const Thing& thing) const noexcept {
     fetch(thing.position);
     fetch(thing.rotation);
@@ -68,13 +68,13 @@ class MotionCurves::Sampler {
     __builtin_prefetch(reinterpret_cast<const char*>(row + (channel.passed ? 4 : row_count(channel))) - 1);
   }
 
-  // Of a span's own rows. The first row of a rotation, which is zero, is not stored.
+  // Number of rows of one span. The first row of a rotation, which is zero, is not stored.
   static std::size_t row_count(const Channel& channel) noexcept {
     return channel.passed ? 2 : static_cast<std::size_t>(channel.degree) + (channel.starts ? 0 : 1);
   }
 
-  // Whether the time lies inside of one of the curve's spans; at knots that are arrived at and beyond the ends the
-  // curve is asked itself.
+  // Whether the time lies inside one of the curve's spans; on arrival at a knot and beyond the ends the curve itself is
+  // sampled.
   bool inside(const Channel& channel) noexcept {
     if (!channel.times) return false;
     if (channel.times != times_) {
@@ -134,7 +134,7 @@ class MotionCurves::Sampler {
     rate = value * turned.velocity * inverse_ * rate_;
   }
 
-  // How far a rotation has turned from its span's start, and how fast it does per span.
+  // How far a rotation has turned from its span's start, and how fast it turns per span.
   void turn_at(const Vec3* rows, int degree, Vec3& turn, Vec3& rate) const noexcept {
     if (degree == 3) {
       const spans::CubicAt cubic{position_, 1, 1};

@@ -23,7 +23,7 @@ template <class T>
   }
 }
 
-/// The straight warp, with which a span of any form of rotation can be cut and reversed.
+/// The linear warp, with which a rotation span of any form can be cut and reversed.
 inline Warp::Result straight_warp(double u, const std::array<double, 4>&) noexcept {
   return {u, 1, 0};
 }

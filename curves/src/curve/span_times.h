@@ -1,6 +1,6 @@
 #pragma once
 
-// When the spans of a curve begin, and the way to the one that holds a time.
+// The times at which the spans of a curve begin, and the search for the one that holds a time.
 
 #include <algorithm>
 #include <cstdint>
@@ -50,15 +50,16 @@ class SpanTimes {
 
   std::vector<double> knots_;  // one more than there are spans
   std::vector<double> inverses_;
-  // Entry b counts the knots in buckets below b, buckets being equal shares of the duration. Two for each span, so that
-  // where keys are spread evenly no bucket has more than one.
+  // Buckets are equal shares of the duration; entry b counts the knots in the buckets below b. There are two buckets
+  // per span, so that evenly spaced keys never share one.
   std::vector<std::uint32_t> buckets_;
   double bucket_scale_ = 0;
 };
 
 namespace spans {
 
-/// The same for all curves that are made one after the other with the same knots, as those of a clip often are.
+/// The times of `knots`, shared by curves that are made one after the other with the same knots, as those of a clip
+/// often are.
 [[nodiscard]] std::shared_ptr<const SpanTimes> shared_times(std::span<const double> knots);
 
 }  // namespace spans

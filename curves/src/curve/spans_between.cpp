@@ -27,7 +27,7 @@ void offset_span(typename SpanOf<T>::type& span, const T& start, const T& end, d
     span.from = turn * span.from;
     span.end = turn * span.end;
     span.spin = turn * span.spin;
-    // Rows that are rotations, or sum up to them.
+    // The number of rows that are rotations, or whose sum is one.
     const int rotations = span.form == RotationSpan::Form::normalized ? span.degree + 1
                           : span.form == RotationSpan::Form::nested   ? 3
                                                                       : 0;
@@ -78,7 +78,7 @@ struct Plays {
   T first, last;  // values between which offsets climb
   std::vector<SpanType> result;
 
-  // One play of the knots, shown from start + k duration on.
+  // One play of the knots, which begins at start + k duration.
   void add(double k, bool backward, double offset, double from, double to) {
     const std::span<const double> knots = curve.knots();
     const double shift = k * curve.duration(), seam = curve.start() + (k + 1) * curve.duration();

@@ -8,7 +8,7 @@
 
 namespace tweenfall::spans {
 
-/// Whether a curve is made of spans (or is constant), so that `spans_between` can answer.
+/// Whether a curve is made of spans (or is constant), so that `spans_between` can be used.
 template <class T>
 [[nodiscard]] bool has_spans(const Curve<T>& curve);
 

@@ -6,7 +6,7 @@
 namespace tweenfall::spans {
 namespace {
 
-// Root of x(s) = u by Newton's method, kept inside a bracket that bisection would halve.
+// Root of x(s) = u by Newton's method, safeguarded by bisection inside a bracket.
 Warp::Result inverse_warp(double u, const std::array<double, 4>& parameters) noexcept {
   const double a = 3 * parameters[0];
   const double b = 3 * parameters[1] - 6 * parameters[0];

@@ -20,8 +20,8 @@ namespace tweenfall::spans {
   return {0, 3 * x1, 3 * x2 - 6 * x1, 1 + 3 * x1 - 3 * x2};
 }
 
-/// The same for the part of a span that its warp shows, in that part's own variable; so becomes the span's polynomial
-/// `c` that part of it. Precondition: is_time_bezier(warp).
+/// The same for the part of a span that its warp shows, in that part's own variable; the span's polynomial `c` is
+/// replaced by its part likewise. Precondition: is_time_bezier(warp).
 template <class V>
 [[nodiscard]] std::array<double, 4> shown_time_cubic(const Warp& warp, V* c, int degree) noexcept {
   std::array<double, 4> x = time_cubic(warp.parameters[0], warp.parameters[1]);

@@ -23,7 +23,7 @@ static Pieces bounce(Flow flow) {
                 hop(8.0 / 11, 10.0 / 11, 9.0 / 11, 15.0 / 16, 1), hop(10.0 / 11, 1, 21.0 / 22, 63.0 / 64, 1)};
   // Every later hop begins at 1, where the one before touched.
   for (std::size_t i = 1; i < out.size(); ++i) out[i].coefficients[0] = 1;
-  // The way in is the reflection of the way out.
+  // The "in" form is the reflection of the "out" form.
   const Pieces in = flowing(out, Flow::out);
   return flow == Flow::out ? out : flowing(in, flow);
 }

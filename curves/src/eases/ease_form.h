@@ -12,10 +12,10 @@ struct Ease::Form {
   SlopeRule slopes = nullptr;
   std::array<double, 4> parameters{};
   TurnRule turns = nullptr;
-  ShapeRule shape = nullptr;  ///< where the pieces depend on the duration
+  ShapeRule shape = nullptr;  ///< set where the pieces depend on the duration
   std::vector<Piece> pieces{};
   bool continuous_acceleration = false;                   ///< of the slopes
-  Ease (*with_ends)(double start, double end) = nullptr;  ///< the same with the first two parameters stated anew
+  Ease (*with_ends)(double start, double end) = nullptr;  ///< the same ease with other first two parameters
 };
 
 }  // namespace tweenfall

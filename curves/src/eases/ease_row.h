@@ -1,8 +1,8 @@
 #pragma once
 
-// The rows that make words eases. From its row follow how an ease is read and printed, what the document's schema says
-// of it, and what is suggested for a misspelled word. A new kind of ease is a file with its row, and a line in
-// ease_rows.cpp.
+// The rows that turn words into eases. A row determines how an ease is read and printed, what the document's schema
+// says about it, and what is suggested for a misspelled word. A new kind of ease is a file with its row, and an entry
+// in ease_rows.cpp.
 
 #include <tweenfall/curves/number_text.h>
 
@@ -25,17 +25,17 @@ struct Call {
   bool called = false;  ///< whether there are brackets
   std::vector<std::string_view> arguments{};
 
-  /// @throws std::invalid_argument unless there are so many arguments; `form` is how the call is written.
+  /// @throws std::invalid_argument unless there are `least` to `most` arguments; `form` is how the call is written.
   void expect(std::size_t least, std::size_t most, std::string_view form) const;
   /// Argument number i, with or without its unit. @throws std::invalid_argument unless it is a finite number.
   [[nodiscard]] double number(std::size_t i, std::string_view unit = "") const;
 };
 
-/// A word or a call or both.
+/// An ease written as a word, as a call, or as both.
 struct Row {
   std::string_view word;
-  Ease (*plain)() = nullptr;                   ///< the word by itself; null where it needs numbers
-  std::string_view form{};                     ///< what a call takes, "(count,jump)"; empty where there is no call
+  Ease (*plain)() = nullptr;  ///< the word by itself; null where it needs numbers
+  std::string_view form{};    ///< the arguments of a call, "(count,jump)"; empty where there is no call
   Ease (*called)(const Call& call) = nullptr;  ///< @throws std::invalid_argument
 };
 
@@ -51,7 +51,7 @@ struct FamilyNumber {
 struct FamilyRow {
   std::string_view word;
   Pieces (*make)(const Numbers& numbers, Flow flow);
-  std::array<FamilyNumber, 2> numbers{};  ///< those with a name; a call states the first, or both
+  std::array<FamilyNumber, 2> numbers{};  ///< those with a name are in use; a call states the first, or both
 };
 
 /// All of them, in the order of the documentation.

@@ -1,6 +1,6 @@
 #include "eases/ease_row.h"
 
-// All kinds of eases, in the order of the documentation: a row each, defined in the file of its kind.
+// All kinds of eases, in the order of the documentation: one row each, defined in the file of its kind.
 // clang-format off
 #define TWEENFALL_EASES(ROW)                                                                      \
   ROW(hold) ROW(step_next) ROW(linear) ROW(smooth) ROW(smooth_clamped) ROW(monotone) ROW(akima)   \

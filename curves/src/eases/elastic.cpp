@@ -27,7 +27,7 @@ Warp::Result elastic_in(double u, const std::array<double, 4>& parameters) noexc
 
 }  // namespace
 
-// Source: Penner, 2002, with the tail taken off as for the exponential.
+// Source: Penner, 2002, with the remainder at the end removed as for the exponential.
 static Pieces elastic(double amplitude, double period, Flow flow) {
   constexpr double turn = 0x1.921fb54442d18p+2;
   const double a = std::max(amplitude, 1.0);

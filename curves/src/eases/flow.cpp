@@ -32,7 +32,7 @@ Span<double> reflected(const Span<double>& p) {
   return piece(1 - (p.start + p.duration), p.duration, reflected(c), 1 - p.coefficients[0], {});
 }
 
-// Into the half of the unit interval that begins at `from`.
+// Appends `p`, shrunk into the half of the unit interval that begins at `from`.
 void append_half(Pieces& pieces, Span<double> p, double from) {
   p.start = from + 0.5 * p.start;
   p.duration *= 0.5;

@@ -7,12 +7,12 @@ namespace eases {
 namespace {
 
 struct ForeignWord {
-  std::string_view theirs;  // small letters and digits alone
+  std::string_view theirs;  // only lower case letters and digits
   std::string_view ours;
 };
 
 // Names of whole eases. Source: the manuals of Blender 4 (F-curves and their handles), Maya 2024 (tangents), After
-// Effects, glTF 2.0, three.js, jQuery, d3, and R. Penner's classes, in which even the straight way has directions.
+// Effects, glTF 2.0, three.js, jQuery, d3, and R. Penner's classes, in which even the linear ease has directions.
 constexpr ForeignWord words[] = {{"constant", "hold"},
                                  {"stepped", "hold"},
                                  {"step", "hold"},
@@ -47,7 +47,8 @@ constexpr ForeignWord words[] = {{"constant", "hold"},
                                  {"pchip", "monotone"},
                                  {"c2", "natural"}};
 
-// Other names of families, and ours where a name without a direction means the way out (Blender: "dynamic effects").
+// Other names of families; and our names, where one without a direction means the out form (Blender's "dynamic
+// effects").
 constexpr ForeignWord families_elsewhere[] = {
     {"quadratic", "quad"}, {"cube", "cubic"},      {"quartic", "quart"},    {"quintic", "quint"},
     {"sin", "sine"},       {"sinusoidal", "sine"}, {"exponential", "expo"}, {"exp", "expo"},
@@ -100,7 +101,7 @@ std::string Ease::ours(std::string_view foreign) {
   const std::string_view call = text.substr(word.size());
   const std::string key = eases::plain(word);
   if (key.empty() || key.size() > 40) return {};
-  // Our own in other letters, "easeIn" and "catmullRom".
+  // Our own names in another spelling, "easeIn" and "catmullRom".
   for (const std::string& name : names()) {
     const std::string own = name.substr(0, name.find('('));
     if (eases::plain(own) != key || call.empty() != (own.size() == name.size())) continue;

@@ -6,7 +6,7 @@
 namespace tweenfall::eases {
 namespace {
 
-// A stop of CSS linear(): an output, and none, one or two inputs in percent at which it stands.
+// A stop of CSS linear(): an output and zero, one or two inputs in percent at which it applies.
 struct LinearStop {
   double output;
   std::vector<double> percents{};
@@ -16,7 +16,7 @@ struct Point {
   double input, output;
 };
 
-// Every stop with its input: the first at 0 and the last at 1 unless given, none before an earlier one, the rest
+// Every stop with its input: the first at 0 and the last at 1 unless given, no stop before an earlier one, the rest
 // spread evenly between their neighbors.
 std::vector<Point> placed(const std::vector<LinearStop>& stops) {
   constexpr double open = -HUGE_VAL;
@@ -46,10 +46,10 @@ std::vector<Point> placed(const std::vector<LinearStop>& stops) {
   return points;
 }
 
-// Straight through two points, from one input to another.
+// The straight line through two points, from one input to another.
 Span<double> straight(const Point& a, const Point& b, double from, double to) {
   const auto at = [&a, &b](double input) {
-    // Two points at one input: what the second says holds on both sides.
+    // Two points at one input: the output of the second holds on both sides.
     if (!(b.input > a.input)) return b.output;
     const double u = (input - a.input) / (b.input - a.input);
     return u == 0 ? a.output : u == 1 ? b.output : a.output + u * (b.output - a.output);
@@ -67,7 +67,7 @@ Span<double> straight(const Point& a, const Point& b, double from, double to) {
 }  // namespace
 
 // Source: W3C, "CSS Easing Functions Level 2", output of a linear easing function: outside the points the line through
-// the first two, or the last two, goes on; where these share an input, the second one's output holds.
+// the first two, or the last two, is continued; where these share an input, the second one's output holds.
 static Pieces linear(const std::vector<LinearStop>& stops) {
   std::vector<Point> points = placed(stops);
   if (points.size() == 1) points.push_back(points[0]);
@@ -78,7 +78,7 @@ static Pieces linear(const std::vector<LinearStop>& stops) {
     const double to = last ? 1 : std::clamp(points[i + 1].input, 0.0, 1.0);
     // Nearer than this the slope between them means nothing.
     if (!(to - from > 1e-12)) continue;
-    // Two points at one input are a jump, except at either end, where they are all there is to go by.
+    // Two points at one input are a jump, except at either end, where there are no others to continue from.
     const bool jump = !(points[i + 1].input > points[i].input);
     if (jump && i > 0 && !last) continue;
     result.push_back(straight(points[i], points[i + 1], from, to));

@@ -7,10 +7,10 @@
 namespace tweenfall::eases {
 namespace {
 
-// With x from 0 (there) to 1 (not yet): the wave that is left, f(x) a 2^(-10 x) sin((x + s) w), where f fades an
-// amplitude below 1 in over the first quarter of a period. Parameters: amplitude, w, s.
+// With x from 0 (arrived) to 1 (not started): the remaining wave f(x) a 2^(-10 x) sin((x + s) w), where f fades in an
+// amplitude below 1 over the first quarter of a period. Parameters: amplitude, w, s.
 Warp::Result penner_elastic_in(double u, const std::array<double, 4>& parameters) noexcept {
-  // The start is met, over a jump as large as what is left of the wave there.
+  // Exactly 0 at the start, followed by a jump as large as the wave still is there.
   if (u == 0) return {0, 0, 0};
   constexpr double rate = 10 * 0x1.62e42fefa39efp-1;
   const double a = parameters[0], w = parameters[1], s = parameters[2], x = 1 - u;

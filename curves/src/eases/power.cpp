@@ -8,7 +8,7 @@
 namespace tweenfall::eases {
 namespace {
 
-// u^e for any e > 0. A slope or a bend that is infinite at 0 is limited to a million.
+// u^e for any e > 0. A first or second derivative that is infinite at 0 is limited to a million.
 Warp::Result powered(double u, const std::array<double, 4>& parameters) noexcept {
   const double e = parameters[0];
   constexpr double most = 1e6;

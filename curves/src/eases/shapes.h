@@ -1,6 +1,6 @@
 #pragma once
 
-// What the shapes that re-time a span are built from; each has a file of its own.
+// The building blocks of shapes that re-time a span; each shape has a file of its own.
 
 #include <tweenfall/curves/span.h>
 
@@ -11,10 +11,10 @@ namespace tweenfall::eases {
 
 using Pieces = std::vector<Span<double>>;
 
-/// Which end of the span a family's shape acts on.
+/// The end of the span on which a family's shape acts.
 enum class Flow { in, out, in_out };
 
-/// A way in over the unit interval, as a polynomial (seen through `warp`), and the warp run backwards:
+/// The "in" form of a shape over the unit interval: a polynomial, seen through `warp`, and the warp run backwards:
 /// reversed(u) = 1 - warp(1 - u).
 struct WayIn {
   std::vector<double> coefficients;
@@ -22,7 +22,7 @@ struct WayIn {
   Warp::Function reversed = nullptr;
 };
 
-/// The way in itself, its point reflection (out), or one half of each.
+/// The "in" form itself, its point reflection (out), or one half of each.
 [[nodiscard]] Pieces flowing(const WayIn& way_in, Flow flow);
 /// The same for shapes of several pieces, without warps, over the unit interval.
 [[nodiscard]] Pieces flowing(const Pieces& way_in, Flow flow);

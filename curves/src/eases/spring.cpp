@@ -17,8 +17,8 @@ Response step_response(double phase, double z) noexcept {
   return {1 - r.displaced, r.struck, r.displaced - 2 * z * r.struck};
 }
 
-// The response over the span, plus what is left at its end, taken away by a smooth step.
-// Parameters: frequency in radians per span, damping ratio, what is left.
+// The response over the span, plus a smooth step that removes the remainder at its end.
+// Parameters: frequency in radians per span, damping ratio, remainder.
 Warp::Result sprung(double u, const std::array<double, 4>& parameters) noexcept {
   const double w = parameters[0], left = parameters[2];
   const Response r = step_response(w * u, parameters[1]);

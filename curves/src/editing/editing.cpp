@@ -20,7 +20,7 @@ void check_order(double from, double to) {
                                 spans::text_of(to) + " s");
 }
 
-// What lies beyond an end, of a formula too.
+// What lies beyond an end of a curve, including a formula.
 template <class T>
 spans::CurveEnd<T> end_of(const Curve<T>& curve, bool early) {
   spans::CurveEnd<T> end = early ? CurveAccess::data(curve).before : CurveAccess::data(curve).after;

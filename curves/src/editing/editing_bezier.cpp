@@ -20,7 +20,7 @@ BezierPoints<T> points_of(const Span<T>& span, double end) {
   const bool warped = span.warp.function && span.degree > 0;
   if (span.degree > 3 || (warped && !spans::is_time_bezier(span.warp)))
     throw std::invalid_argument("the span from " + spans::text_of(span.start) +
-                                " s is no cubic; fit keys to the curve instead");
+                                " s is not a cubic; fit keys to the curve instead");
   std::vector<typename spans::Stored<T>::type> c(4, zero<typename spans::Stored<T>::type>());
   for (std::size_t k = 0; k <= static_cast<std::size_t>(span.degree); ++k) {
     if constexpr (std::is_same_v<T, Color>)
@@ -76,7 +76,7 @@ std::vector<Key<T>> keys_of(std::span<const BezierPoints<T>> spans) {
         editing::refuse_points(i, "has a handle " + spans::text_of(time) +
                                       " s long; it must be > 0 s and at most the span's " + spans::text_of(duration) +
                                       " s");
-    // A third that is not one in its last bit is still the plain cubic.
+    // A share that misses a third only in its last bit is still the plain cubic.
     const auto weight = [duration](double length) {
       const double share = length / duration;
       return std::abs(share - 1.0 / 3) <= 1e-15 ? 1.0 / 3 : share;

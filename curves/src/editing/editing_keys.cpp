@@ -67,7 +67,7 @@ void describe(Key<Quat>& from, Key<Quat>&, const RotationSpan& span, const Curve
   const bool even = !span.warp.function || span.warp.function == &spans::straight_warp;
   if (span.form != RotationSpan::Form::exponential || span.degree != 1 || !even ||
       !(std::abs(span.warp.width) * span.coefficients[1].norm() < half_turn))
-    refuse_span(span, "is no turn at constant speed by less than half a turn");
+    refuse_span(span, "is not a rotation at constant speed by less than half a turn");
   from.ease = Ease::linear();
 }
 
@@ -87,7 +87,7 @@ template <class T>
 std::vector<Key<T>> keys_of(const Curve<T>& curve) {
   if (curve.start() == curve.end()) return {Key<T>{curve.start(), curve.value(curve.start())}};
   const std::vector<typename SpanOf<T>::type> spans = curve.spans();
-  if (spans.empty()) throw std::invalid_argument("a formula is described by no keys; fit keys to it instead");
+  if (spans.empty()) throw std::invalid_argument("no keys describe a formula; fit keys to it instead");
   const std::span<const double> knots = curve.knots();
   std::vector<Key<T>> keys;
   for (std::size_t i = 0; i < knots.size(); ++i) {

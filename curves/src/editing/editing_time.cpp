@@ -24,13 +24,13 @@ spans::CurveEnd<T> with_slopes(spans::CurveEnd<T> end, const Scale& scaled) {
   return end;
 }
 
-// Slopes times a factor.
+// Multiplies slopes by a factor.
 template <class T>
 auto times(double factor) {
   return [factor](const Rate<T>& slope) { return Rate<T>(factor * slope); };
 }
 
-// Another time for everything: `later(t)` is the new time of the old t, `earlier` its inverse, both rising.
+// The curve with all its times moved: `later(t)` is the new time of the old t, `earlier` its inverse, both increasing.
 template <class T, class Later, class Earlier>
 Curve<T> retimed(const Curve<T>& curve, const Later& later, const Earlier& earlier, double factor) {
   spans::Breaks breaks = CurveAccess::breaks(curve);

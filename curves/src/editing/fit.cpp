@@ -11,7 +11,7 @@
 namespace tweenfall::editing {
 namespace {
 
-// From each key as far as the error allows.
+// Goes from each key as far as the error allows.
 template <class T>
 class Fitter {
  public:
@@ -40,10 +40,10 @@ class Fitter {
     const Rate<T>* leaving;
   };
 
-  // The span to be used from `from` to `to`; `found` tells whether it is near enough.
+  // The best span from `from` to `to`; `found` tells whether it is near enough.
   FittedSpan<T> best(double from, double to, bool* found = nullptr) {
     if (found) *found = true;
-    // What is straight anyway is said so.
+    // A stretch that is straight gets a linear key.
     FittedSpan<T> straight = target_.span(from, to, Kind::linear);
     if (target_.is_near(straight, target_.least_error())) return straight;
     if (cubic_) {
@@ -73,7 +73,7 @@ class Fitter {
         static_cast<std::size_t>(std::upper_bound(marks.begin(), marks.end(), from) - marks.begin());
     double good = from, bad;
     if (reaches(from, marks[first])) {
-      // Twice as many boundaries each time, then between the last two tries.
+      // Twice as many boundaries each time, then bisection between the last two tries.
       std::size_t low = first, high = marks.size();
       for (std::size_t step = 1; low + step < marks.size(); step *= 2) {
         if (!reaches(from, marks[low + step])) {
@@ -91,7 +91,7 @@ class Fitter {
       bad = marks[high];
     } else {
       bad = marks[first];
-      // Steep places may ask for spans that are short by any measure.
+      // Steep places may need extremely short spans.
       for (double length = bad - from; good == from; length *= 0.5) {
         const double to = from + length;
         if (!(to > from))
@@ -152,7 +152,7 @@ template <class T>
 std::vector<Key<T>> fit_samples(std::span<const double> times, std::span<const T> values, double error,
                                 const FitOptions& options) {
   if (times.size() != values.size())
-    throw std::invalid_argument("there must be one value a time; there are " + std::to_string(times.size()) +
+    throw std::invalid_argument("there must be one value per time; there are " + std::to_string(times.size()) +
                                 " times and " + std::to_string(values.size()) + " values");
   std::vector<Key<T>> keys;
   for (std::size_t i = 0; i < times.size(); ++i) keys.push_back({times[i], values[i], Ease::catmull_rom()});

@@ -1,6 +1,6 @@
 #pragma once
 
-// What keys are fitted to, and whether a span between two keys is near enough to it.
+// The curve that keys are fitted to, and the check whether a span between two keys is near enough to it.
 
 #include <tweenfall/curves/fitting.h>
 
@@ -8,7 +8,7 @@
 
 namespace tweenfall::editing {
 
-/// A span that may stand between two times: the keys at its ends, of which only the sides within matter.
+/// A candidate span between two times: the keys at its ends, of which only the sides facing the span matter.
 template <class T>
 struct FittedSpan {
   Key<T> from, to;
@@ -22,7 +22,8 @@ class FitTarget {
   /// @throws std::invalid_argument as `fit` does.
   FitTarget(const Curve<T>& curve, double error, const FitOptions& options);
 
-  /// Whether spans can be suited: numbers and vectors mixed as they are, where that is asked for.
+  /// Whether spans of least squares are tried: for numbers and vectors without conversion, where the options ask for
+  /// it.
   [[nodiscard]] bool suits() const noexcept { return plain_ && options_.slopes == FitSlopes::least_squares; }
   [[nodiscard]] const Curve<T>& curve() const noexcept { return curve_; }
   /// Times at which one polynomial ends and the next begins, with both ends.
@@ -33,7 +34,7 @@ class FitTarget {
   [[nodiscard]] FittedSpan<T> span(double from, double to, Kind kind, const Rate<T>* leaving = nullptr) const;
   [[nodiscard]] bool is_near(const FittedSpan<T>& span, double error) const;
   [[nodiscard]] double error() const noexcept { return error_; }
-  /// What is no more than rounding.
+  /// Differences up to this are only rounding.
   [[nodiscard]] double least_error() const noexcept { return least_error_; }
 
  private:

@@ -34,7 +34,7 @@ class Reducer {
   }
 
  private:
-  // Whether one span may stand for those between two keys.
+  // Whether one span may replace those between two keys.
   bool reaches(std::size_t from, std::size_t to, FittedSpan<T>* used = nullptr) const {
     const double start = given_[from].time, end = given_[to].time;
     const FittedSpan<T> straight = target_.span(start, end, Kind::linear);

@@ -12,7 +12,7 @@ namespace {
 using std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-// Sign of what `a` is about to be on the side that `way` means.
+// Sign that `a` takes just beside this point, on the side given by `way`.
 double tendency(const math::Jet& a, double way) noexcept {
   const double s = a.v != 0 ? a.v : a.d != 0 ? way * a.d : a.dd;
   return s > 0 ? 1 : s < 0 ? -1 : 0;
@@ -101,7 +101,7 @@ math::Jet raised(const math::Jet& a, const math::Jet& b) noexcept {
     const double first = n == 0 ? 0 : n * power_value(a.v, n - 1);
     const double second = n == 0 || n == 1 ? 0 : n * (n - 1) * power_value(a.v, n - 2);
     const math::Jet result = math::chained(a, power_value(a.v, n), first, second);
-    // A fixed base has no rates, not even where the power is steep.
+    // A constant base has no rates, not even where the power is steep.
     return a.d == 0 && a.dd == 0 ? math::constant(result.v) : result;
   }
   if (!(a.v > 0)) return {a.v == 0 && b.v > 0 ? 0 : none, none, none};

@@ -1,6 +1,6 @@
 #pragma once
 
-// What an expression can call: operators and functions, each on numbers with their derivatives.
+// The operators and functions of expressions, each on numbers with their derivatives.
 
 #include <span>
 #include <string_view>
@@ -13,8 +13,8 @@ struct ExpressionFunction {
   std::string_view name;       // as written: "+", "clamp"
   std::string_view arguments;  // "x, low, high"
   int count;                   // of the arguments
-  bool any_number;             // more are taken two by two: max(a, b, c) = max(max(a, b), c)
-  /// `way` is 1 for what follows, -1 for what went before: decides where the function jumps or kinks.
+  bool any_number;             // more arguments are folded: max(a, b, c) = max(max(a, b), c)
+  /// `way` is 1 for the limit from later, -1 for that from earlier: it decides where the function jumps or kinks.
   math::Jet (*apply)(const math::Jet* arguments, double way) noexcept;
 };
 

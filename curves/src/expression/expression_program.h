@@ -1,6 +1,6 @@
 #pragma once
 
-// An expression read: steps for a machine with a stack.
+// A parsed expression: steps for a stack machine.
 
 #include <tweenfall/curves/expression.h>
 

@@ -88,7 +88,7 @@ class Reader {
 
   void deeper() {
     if (++nesting_ > deepest_nesting)
-      fault(at_, "an expression is nested at most " + std::to_string(deepest_nesting) + " deep");
+      fault(at_, "an expression may be nested at most " + std::to_string(deepest_nesting) + " deep");
   }
 
   void sum() {
@@ -220,7 +220,7 @@ class Reader {
     steps_.push_back(step);
   }
 
-  // What is called on numbers alone is a number, unless it has no finite value there.
+  // A function of constants is folded into a constant, unless it has no finite value there.
   void call(const ExpressionFunction& function) {
     const auto count = static_cast<std::size_t>(function.count);
     depth_ -= function.count - 1;
@@ -258,8 +258,9 @@ void check_name(const std::string& name) {
   const bool fits = !name.empty() && starts_name(name[0]) &&
                     std::all_of(name.begin(), name.end(), [](char c) { return starts_name(c) || is_digit(c); });
   if (!fits)
-    throw std::invalid_argument("a name in an expression has letters, digits and \"_\" and starts with no digit; " +
-                                words::quoted(name) + " does not");
+    throw std::invalid_argument(
+        "a name in an expression has letters, digits and \"_\" and does not start with a digit; " +
+        words::quoted(name) + " is not such a name");
   if (is_reserved(name))
     throw std::invalid_argument(words::quoted(name) + " is a name that expressions already have; choose another");
 }

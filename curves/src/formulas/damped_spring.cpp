@@ -17,7 +17,7 @@ Curve<double> damped_spring(const DampedSpring& s) {
     throw std::invalid_argument("a spring's damping ratio must be >= 0; it is " + spans::text_of(s.damping_ratio));
   constexpr double turn = 0x1.921fb54442d18p+2, endless = std::numeric_limits<double>::infinity();
   const double w = turn * s.hz, z = s.damping_ratio;
-  // Behind a moving goal it settles at a steady lag; about that point it moves as a spring left alone.
+  // It settles at a constant lag behind a moving goal; about that point it moves like a free spring.
   const double lag = 2 * z * s.goal_velocity / w;
   const double x0 = s.position - s.goal + lag, v0 = (s.velocity - s.goal_velocity) / w;
   return Curve<double>(

@@ -17,7 +17,7 @@ constexpr double forever = std::numeric_limits<double>::infinity();
 // With half the angle, h: h'^2 = w^2 (k^2 - sin^2 h), where k^2 is the energy over that of the top.
 struct Swing {
   double frequency;     // w, of small swings, rad/s
-  double turns;         // whole turns of the angle at t = 0, taken off
+  double turns;         // whole turns of the angle at t = 0, subtracted from it
   double sine, cosine;  // of half the angle at t = 0; the cosine is >= 0
   double rate;          // of half the angle over w, at t = 0
   double energy;        // k^2
@@ -71,7 +71,7 @@ Curve<double> turning(const Swing& m) {
   });
 }
 
-// Just fast enough to reach the top, and never does: the half angle is Gudermann's function.
+// Just fast enough to approach the top without reaching it: half the angle is the Gudermannian function.
 Curve<double> creeping(const Swing& m) {
   const double w = m.frequency, way = m.rate < 0 ? -1 : 1, offset = m.turns * 2 * pi;
   if (m.cosine == 0) return Curve<double>(offset + std::copysign(pi, m.sine));

@@ -8,7 +8,7 @@ namespace tweenfall {
 
 QuinticDecay::QuinticDecay(double offset, double rate, double blend_time, double floor, double acceleration) {
   if (offset == 0 && rate == 0) return;
-  // The rule is told for a positive offset; the other sign is its mirror image.
+  // The rule is stated for a positive offset; the other sign is its mirror image.
   const double sign = offset < 0 || (offset == 0 && rate < 0) ? -1 : 1;
   const double x = sign * offset, v = sign * rate;
   double t = blend_time;

@@ -40,7 +40,7 @@ SpringResponse spring_response(double phase, double z) noexcept {
     const double e = elementary::exp(-z * phase), k = phase * formulas::sinh_ratio(d * phase);
     return {e * (formulas::cosh_series(d * phase) + z * k), e * k};
   }
-  // The slow root by its product with the fast one, which does not cancel.
+  // The slow root from its product with the fast one, which avoids cancellation.
   const double fast = z + d, slow = 1 / fast;
   const double es = elementary::exp(-slow * phase), ef = elementary::exp(-fast * phase);
   return {(fast * es - slow * ef) / (2 * d), (es - ef) / (2 * d)};

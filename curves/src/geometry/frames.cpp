@@ -9,10 +9,10 @@
 namespace tweenfall::geometry {
 namespace {
 
-// Steps of the reflections between two frames that are asked for.
+// Reflection steps between two requested frames.
 constexpr int steps_between = 4;
 
-// The way on at `time`; where the curve rests, the way it sets out or has come, else `fallback`.
+// The direction at `time`; where the curve rests, the one in which it sets out or has arrived, else `fallback`.
 Vec3 tangent_at(const Curve<Vec3>& curve, double time, const Vec3& fallback) {
   const bool last = time >= curve.end();
   const Sample<Vec3> s = curve.sample(time, last ? Side::in : Side::out);
@@ -20,7 +20,7 @@ Vec3 tangent_at(const Curve<Vec3>& curve, double time, const Vec3& fallback) {
   if (speed > 0) {
     const Vec3 onward = s.rate / speed;
     if (last || time <= curve.start()) return onward;
-    // Across half of a kink.
+    // At a kink, half way between both directions.
     const Vec3 arriving = curve.rate(time, Side::in);
     const double before = arriving.norm();
     if (!(before > 0)) return onward;
@@ -96,7 +96,7 @@ std::optional<Frame> frenet_frame(const Curve<Vec3>& curve, double time, Side si
   const Sample<Vec3> s = curve.sample(time, side);
   const Vec3 turn = s.rate.cross(s.acceleration);
   const double speed = s.rate.norm(), size = turn.norm();
-  // A bend that is nothing but rounding has no direction.
+  // A bend that is only rounding has no direction.
   if (!(size > 1e-14 * speed * s.acceleration.norm())) return {};
   Frame frame{s.value, s.rate / speed, Vec3(0, 0, 0), turn / size};
   frame.normal = frame.binormal.cross(frame.tangent);

@@ -52,7 +52,7 @@ class Lathe {
   }
 
  private:
-  // Area between the profile and the axis, > 0 where the profile has it on its left.
+  // Area between the profile and the axis, > 0 where it lies to the left of the profile.
   double enclosed() const {
     double area = 0;
     const std::vector<Profile::Column>& c = profile_.columns;
@@ -108,7 +108,7 @@ class Lathe {
     }
   }
 
-  // The plane face where a part of a turn begins or ends.
+  // The flat face where a partial turn begins or ends.
   void add_cut(std::size_t i) {
     std::vector<Vec2> outline;
     for (const std::uint32_t corner : profile_.corners) outline.push_back(profile_.columns[corner].position);
@@ -117,7 +117,7 @@ class Lathe {
       if (outline.front()[0] > 0) outline.push_back({0, outline.front()[1]});
     }
     const bool first = i == 0;
-    // Against the way of turning at its beginning.
+    // The direction of turning, which the face at the beginning looks against.
     const Vec3 way(-rays_[i].sin, 0, -rays_[i].cos);
     const auto begin = static_cast<std::uint32_t>(mesh_.positions.size());
     for (const Vec2& p : outline) (void)add(turned(p, i), first ? Vec3(-way) : way, p);

@@ -9,7 +9,7 @@
 namespace tweenfall::geometry {
 namespace {
 
-// Cosine of the least bend that is an edge and not a smooth place: two degrees.
+// Cosine of two degrees: a sharper bend is an edge, a lesser one is smooth.
 constexpr double smooth = 0.9994;
 
 Vec2 direction(const Sample<Vec2>& s, double sign, const Vec2& fallback) {
@@ -82,7 +82,7 @@ Profile::Profile(const Curve<Vec2>& curve, int steps, bool keep_straight) {
   }
   columns.back().share = 1;
   if (closed) {
-    // Where the closing is smooth, both of its columns take one normal.
+    // Where the profile closes smoothly, both columns there share one tangent.
     if (columns.front().tangent.dot(columns.back().tangent) >= smooth) columns.back().tangent = columns.front().tangent;
   } else {
     corners.push_back(static_cast<std::uint32_t>(columns.size() - 1));
@@ -127,7 +127,7 @@ std::vector<std::uint32_t> polygon_triangles(const std::vector<Vec2>& points) {
     for (std::size_t i = 0; i < n; ++i) {
       const std::uint32_t a = left[(i + n - 1) % n], b = left[i], c = left[(i + 1) % n];
       const double width = turn(a, b, c);
-      // The widest ear first; where none is clear of the other points (they touch), the widest corner.
+      // The widest ear first; where every ear touches other points, the widest corner.
       const bool ear = width > 0 && (width > widest || !found) && is_ear(a, b, c);
       if (ear || (!found && width > widest)) {
         best = i;

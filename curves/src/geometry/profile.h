@@ -11,8 +11,8 @@
 namespace tweenfall::geometry {
 
 /// The knots, and times between them so that there are about `steps` stretches of equal duration; straight spans are
-/// not cut where `keep_straight`.
-/// @throws std::invalid_argument naming `what` for an endless or pointlike curve, or steps < 1.
+/// not cut if `keep_straight`.
+/// @throws std::invalid_argument naming `what` for an endless curve or one that is a single point, or steps < 1.
 template <class T>
 [[nodiscard]] std::vector<double> step_times(const Curve<T>& curve, int steps, bool keep_straight,
                                              const std::string& what);
@@ -26,9 +26,9 @@ struct Profile {
   };
   std::vector<Column> columns;
   std::vector<std::uint32_t> sides;    // column at which each side begins; it ends at the next
-  std::vector<std::uint32_t> corners;  // one column for each different point, in order
+  std::vector<std::uint32_t> corners;  // one column for each distinct point, in order
   bool closed = false;
-  double area = 0;  // enclosed, > 0 where counter-clockwise; closed through the origin where open
+  double area = 0;  // enclosed, > 0 where counter-clockwise; an open profile is closed through the origin
 
   Profile(const Curve<Vec2>& curve, int steps, bool keep_straight);
 

@@ -57,13 +57,13 @@ bool is_closed(const SurfaceMesh& mesh) {
 MeshMeasures measure(const SurfaceMesh& mesh) noexcept {
   MeshMeasures result;
   if (mesh.positions.empty()) return result;
-  // From a point amid the vertices, so that a mesh far from the origin loses no digits.
+  // Relative to a point among the vertices, so that a mesh far from the origin loses no digits.
   Vec3 middle(0, 0, 0);
   for (const Vec3& p : mesh.positions) middle += p;
   middle /= static_cast<double>(mesh.positions.size());
 
-  Vec3 first(0, 0, 0);         // integral of the place
-  Mat3 second = Mat3::Zero();  // integral of place times place
+  Vec3 first(0, 0, 0);         // integral of the position
+  Mat3 second = Mat3::Zero();  // integral of the position times itself, transposed
   for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
     const Vec3 a = mesh.positions[mesh.triangles[i]] - middle, b = mesh.positions[mesh.triangles[i + 1]] - middle,
                c = mesh.positions[mesh.triangles[i + 2]] - middle;

@@ -10,7 +10,7 @@
 namespace tweenfall::geometry {
 namespace {
 
-// What of the rail's rates the surface needs at a ring.
+// The rates of the rail that the surface normal needs at a ring.
 struct RailPoint {
   double speed;       // m/s
   Vec3 tangent_rate;  // derivative of the tangent, 1/s
@@ -24,7 +24,7 @@ RailPoint rail_point(const Curve<Vec3>& rail, double time, const Vec3& tangent, 
   return {speed, Vec3((s.acceleration - s.acceleration.dot(tangent) * tangent) / speed), twist_per_length * speed};
 }
 
-// Outwards from the surface place(p) = frame with p = (x, y): the way along the profile times the way along the rail.
+// The outward normal of the surface: the tangent along the profile times the tangent along the rail.
 Vec3 surface_normal(const Profile::Column& p, const Frame& f, const RailPoint& r) {
   const Vec3 arm = p.position[0] * f.normal + p.position[1] * f.binormal;
   const Vec3 along_profile = p.tangent[0] * f.normal + p.tangent[1] * f.binormal;
@@ -57,7 +57,7 @@ namespace tweenfall {
 
 SurfaceMesh sweep(const Curve<Vec2>& curve, const Curve<Vec3>& rail, const SweepOptions& options) {
   if (!std::isfinite(options.twist)) throw std::invalid_argument("a sweep's twist must be finite");
-  // A straight side that is twisted is a screw's surface, and no plane.
+  // A straight side that is twisted becomes a helical surface, not a plane.
   geometry::Profile profile(curve, options.profile_steps, options.twist == 0);
   if (profile.closed && profile.area < 0) profile.reverse();
 

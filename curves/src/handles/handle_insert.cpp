@@ -17,7 +17,7 @@ Point between(const Point& a, const Point& b, double s) noexcept {
   return {a.time + s * (b.time - a.time), a.value + s * (b.value - a.value)};
 }
 
-// Handles as the curve takes them: no longer than its rule allows.
+// Handles as the curve uses them: no longer than the rule allows.
 void shorten(HandleKey& a, HandleKey& b, Overlong rule) {
   const double duration = b.time - a.time;
   const HandleWidths asked{(a.out.time - a.time) / duration, (b.time - b.in.time) / duration};
@@ -49,7 +49,7 @@ HandleKey divided(HandleKey& a, HandleKey& b, double time) {
   return key;
 }
 
-// The key on the span that leaves `a`, key number `index`, by an ease.
+// The new key on a span that leaves `a`, key number `index`, by an ease.
 HandleKey between(const HandleKey& a, const HandleKey& b, double time, std::size_t index) {
   double value = a.value;
   if (a.ease->rule() == Ease::Rule::linear)

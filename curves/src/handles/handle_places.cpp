@@ -43,7 +43,7 @@ void check(std::span<const HandleKey> keys) {
   }
 }
 
-// Both sides of key i as they look to its handles: neighbors around a loop, else mirrored at an open end.
+// Both sides of key i as its handles see them: around a loop from its other end, at an open end mirrored.
 keying::KeyNeighbors neighbors_of(const std::vector<PlacedKey>& keys, std::size_t i, Ends ends) {
   const std::size_t last = keys.size() - 1;
   const auto secant = [&keys](std::size_t span) {
@@ -74,13 +74,13 @@ void put_automatic(PlacedKey& key, const keying::KeyNeighbors& n, bool open_end,
       if (out_clamped) out_slope = 0;
       key.locked = true;
     } else {
-      // The side that arrives decides where both handles would leave the values of their spans.
+      // Where both handles would leave the values of their spans, the arriving side decides.
       const double in_most = std::abs(n.secant_before) * n.duration_before / in_time;
       const double out_most = std::abs(n.secant_after) * n.duration_after / out_time;
       const double size = std::abs(slope);
       const double limit = in_clamped && size > in_most ? in_most : out_clamped && size > out_most ? out_most : size;
       in_slope = out_slope = std::clamp(slope, -limit, limit);
-      // A limited side turns the other with it, of whatever kind.
+      // Limiting one side turns the other with it, whatever its kind.
       if (limit < size) {
         key.in.value = in_slope * key.in.time;
         key.out.value = out_slope * key.out.time;
@@ -91,7 +91,7 @@ void put_automatic(PlacedKey& key, const keying::KeyNeighbors& n, bool open_end,
   if (is_smooth(key.out_kind)) key.out = {out_time, out_slope * out_time};
 }
 
-// Kinds with a slope of their own and a third of the span.
+// Places handles of the kinds that have a slope of their own and a third of the span as length.
 void put_third(HandleReach& reach, TangentKind kind, double secant, double duration, const keying::KeyNeighbors& n,
                bool open_end) {
   if (kind == TangentKind::given || kind == TangentKind::aligned || kind == TangentKind::mirrored || is_smooth(kind))
@@ -155,7 +155,7 @@ std::vector<HandleKey> placed_handles(std::span<const HandleKey> keys, const Han
   for (std::size_t i = 0; i < result.size(); ++i) {
     const handling::PlacedKey& p = placed[i];
     Handle &in = result[i].in, &out = result[i].out;
-    // Places that were given and stand are kept to the bit.
+    // Given handles that did not move keep their places to the bit.
     if (in.kind != TangentKind::given || p.value - in.value != p.in.value)
       in = {TangentKind::given, p.time - p.in.time, p.value - p.in.value};
     if (out.kind != TangentKind::given || out.value - p.value != p.out.value)

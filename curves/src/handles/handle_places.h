@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the handles of keys are put by their kinds, one step at a time.
+// The steps that place the handles of keys by their kinds.
 
 #include <tweenfall/curves/handles.h>
 
@@ -15,18 +15,18 @@ struct HandleReach {
   double time = 0, value = 0;
 };
 
-/// A key while its handles are being put.
+/// A key while its handles are being placed.
 struct PlacedKey {
   double time, value;
   TangentKind in_kind, out_kind;
   HandleReach in, out;  ///< value is from the handle to the key, and from the key to the handle
-  bool locked = false;  ///< flat whatever its neighbors do
+  bool locked = false;  ///< flat, whatever its neighbors are
 };
 
-/// Gives automatic and auto-clamped keys the slopes of continuous acceleration.
+/// Gives automatic and auto-clamped keys the slopes that make the acceleration continuous.
 void smooth_handles(std::vector<PlacedKey>& keys, Ends ends);
 
-/// Puts aligned and mirrored handles opposite to their key's other one.
+/// Places aligned and mirrored handles opposite the other handle of their key.
 void align_handles(PlacedKey& key) noexcept;
 
 }  // namespace tweenfall::handling

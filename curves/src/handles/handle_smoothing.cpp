@@ -32,9 +32,8 @@ struct HandleLimits {
   }
 };
 
-// Slopes that solve the rows where the limits allow it. A slope beyond a limit is set to it; one that then wants back
-// inside is set free again, at most twice.
-// Source: Blender, tridiagonal_solve_with_limits.
+// Slopes that solve the rows where the limits allow it. A slope beyond a limit is locked to it; one that would then
+// move back inside is released again, at most twice. Source: Blender, tridiagonal_solve_with_limits.
 std::vector<double> solved_within(const math::Tridiagonal& free_rows, const std::vector<HandleLimits>& limits) {
   const std::size_t n = free_rows.rows();
   math::Tridiagonal rows = free_rows;
@@ -48,7 +47,7 @@ std::vector<double> solved_within(const math::Tridiagonal& free_rows, const std:
     for (std::size_t i = 0; i < n; ++i)
       if (x[i] < limits[i].low || x[i] > limits[i].high) beyond.push_back(i);
     const auto target = [&](std::size_t i) { return x[i] > limits[i].high ? limits[i].high : limits[i].low; };
-    // First those that head the right way but too far: the others may come right by it.
+    // First those of the right sign that are too large: this may correct the others.
     const bool some_too_far = std::any_of(beyond.begin(), beyond.end(), [&](std::size_t i) { return target(i) != 0; });
     for (const std::size_t i : beyond)
       if (!some_too_far || target(i) != 0) {
@@ -81,7 +80,7 @@ bool is_clamped(const PlacedKey& key) {
   return key.in_kind == TangentKind::auto_clamped || key.out_kind == TangentKind::auto_clamped;
 }
 
-// A run of keys, each the index of a key, around a loop where it leads over the seam.
+// A run of keys, given by their indices; around a loop it may lead over the seam.
 class Run {
  public:
   Run(std::vector<PlacedKey>& keys, std::size_t first, std::size_t count, bool cycle)
@@ -130,7 +129,7 @@ class Run {
 
  private:
   [[nodiscard]] std::size_t index(std::size_t k) const {
-    // The first and the last key of a loop are one.
+    // The first and the last key of a loop are the same.
     const std::size_t i = first_ + k;
     return i < keys_.size() ? i : i + 1 - keys_.size();
   }
@@ -148,7 +147,7 @@ class Run {
     return kind == TangentKind::vector || (end_of_curve && is_smooth(kind) && !key.locked);
   }
 
-  // An end that keeps its handle: its slope is known. Its length, where that is not a third, changes how strongly the
+  // An end that keeps its handle: its slope is known. If its length is not a third, that changes how strongly the
   // acceleration at the next key depends on that key's own slope.
   void lock_end(math::Tridiagonal& rows, std::size_t end, std::size_t next, HandleReach reach, double span,
                 bool other_open) const {
@@ -156,7 +155,7 @@ class Run {
     if (fit < 1) reach = {fit * reach.time, fit * reach.value};
     lock(rows, end, 3 * reach.value / span);
     if (count_ == 2 && !other_open) return;
-    // In units of the row, whose own two spans count h1 and h0.
+    // In the units of the row, in which its two spans have the weights h1 and h0.
     const double share = 1 - 3 * reach.time / span;
     const double weight = end < next ? rows.lower[next] : rows.upper[next];
     rows.diagonal[next] += weight * share;
@@ -188,7 +187,7 @@ class Run {
 
 }  // namespace
 
-// Runs of keys that are free to choose lie between keys that are not, or the ends.
+// Runs of keys with free slopes lie between keys without, or the ends.
 // Source: Blender, BKE_nurb_handle_smooth_fcurve.
 void smooth_handles(std::vector<PlacedKey>& keys, Ends ends) {
   const std::size_t n = keys.size();

@@ -8,7 +8,7 @@
 namespace tweenfall::handling {
 namespace {
 
-// A handle's share of the span, free of the rounding of absolute times where it is meant to be a third.
+// A handle's share of the span; exactly a third where only the rounding of absolute times differs from it.
 double share(double length, double duration, double time) noexcept {
   constexpr double third = 1.0 / 3;
   const double result = length / duration;
@@ -25,7 +25,7 @@ void append_span(std::vector<Span<double>>& spans, const HandleKey& a, const Han
   const HandleWidths widths{share(a.out.time - a.time, span.duration, a.time),
                             share(b.time - b.in.time, span.duration, b.time)};
   if (widths.start == 0 && widths.end == 0 && first == 0 && second == 0) {
-    // Without handles time and value advance alike: a straight line.
+    // Without handles time and value advance in proportion: a straight line.
     span.degree = 1;
     span.coefficients[0] = a.value;
     span.coefficients[1] = change;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What every list of keys must be, whatever its values: errors name the key.
+// The checks that every list of keys must pass, whatever its values are; errors name the key.
 
 #include <tweenfall/curves/keys.h>
 
@@ -52,11 +52,11 @@ void check_keys(std::span<const Key<T>> keys) {
     if (key.out && key.ease.rule() != Ease::Rule::smooth_clamped)
       refuse_key(keys, i, "has both the ease \"" + key.ease.name() + "\" and an \"out\" tangent; one of them decides");
     if (key.in && key.out && follows_other_side(key.in->kind) && follows_other_side(key.out->kind))
-      refuse_key(keys, i, "has two tangents that follow each other; one of them must say where to");
+      refuse_key(keys, i, "has two tangents that each take the slope of the other; one of them must state a slope");
     if (key.value_in && i == 0)
       refuse_key(keys, i, "is the first, so nothing arrives and it cannot have an arriving value");
     if (key.value_in && keys[i - 1].ease.rule() == Ease::Rule::hold && !keys[i - 1].out && !key.in)
-      refuse_key(keys, i, "has an arriving value, but the key before it holds its own");
+      refuse_key(keys, i, "has an arriving value, but the key before it holds its own value until then");
   }
 }
 

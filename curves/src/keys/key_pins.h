@@ -1,6 +1,6 @@
 #pragma once
 
-// The keys' own values, for curves that are computed through a conversion which would round them.
+// The exact values at the keys, for curves computed through a conversion that would round them.
 
 #include <tweenfall/curves/keys.h>
 
@@ -33,7 +33,7 @@ class KeyPins {
     }
   }
 
-  /// The exact value where `time` is that of a key, else null. Beyond the ends, where the curve rests, the end's.
+  /// The exact value where `time` is that of a key, else null. Beyond an end at which the curve holds, the end's value.
   [[nodiscard]] const T* at(double time, Side side, Outside before, Outside after) const noexcept {
     if (time < times_.front()) return before == Outside::hold ? &leaving_.front() : nullptr;
     if (time > times_.back()) return after == Outside::hold ? &leaving_.back() : nullptr;

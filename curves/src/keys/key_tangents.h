@@ -11,7 +11,8 @@
 
 namespace tweenfall::keying {
 
-/// What a key's two sides come to, beside the slopes that the keys' eases chose.
+/// The slope and weight at both sides of each key, from the tangents that keys state and the slopes that their eases
+/// chose.
 template <class T>
 class KeyTangents {
  public:
@@ -40,7 +41,7 @@ class KeyTangents {
   }
   [[nodiscard]] std::size_t span_of(const Place& p) const { return p.side == Side::out ? p.key : p.key - 1; }
 
-  // The same key's other side; over a loop's seam that of the key at its other end. Key `none` where there is none.
+  // The same key's other side; at the seam of a loop, that of the key at its other end. Key `none` where there is none.
   [[nodiscard]] Place across(const Place& p) const {
     const std::size_t last = keys_.size() - 1;
     const std::size_t end = p.side == Side::out ? 0 : last;
@@ -113,7 +114,7 @@ class KeyTangents {
                                              weight(in), weight(out)});
   }
 
-  // What the span itself does at a side that states nothing.
+  // The slope of the span itself at a side that states none.
   [[nodiscard]] double chosen(const Place& p, int c) const {
     const std::size_t span = span_of(p);
     if (request_.span_eases[span]) {

@@ -77,7 +77,7 @@ Span<T> cubic(const Key<T>& from, const Key<T>& to, const KeyTangents<T>& tangen
   return span;
 }
 
-// The rates at the keys where each has one, and all that lies between them are the plain cubics; else nothing.
+// The rates at the keys where each has a single one and all spans between them are plain cubics; else empty.
 template <class T>
 std::vector<double> shared_rates(std::span<const Key<T>> keys, const KeyTangents<T>& tangents) {
   constexpr double third = 1.0 / 3;
@@ -106,7 +106,7 @@ std::vector<double> shared_rates(std::span<const Key<T>> keys, const KeyTangents
   return rates;
 }
 
-// The curve where it is nothing but cubics through its keys.
+// The curve, if all its spans are cubics through its keys.
 template <class T>
 std::optional<Curve<T>> cubics_through_keys(std::span<const Key<T>> keys, const KeyTangents<T>& tangents) {
   const std::vector<double> rates = shared_rates(keys, tangents);
@@ -137,8 +137,9 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
     const Key<T>&a = keys[i], &b = keys[i + 1];
     const SpanKind kind = plan_span(a.ease, a.out || b.in).kind;
     if (kind != SpanKind::hold && !spans::all_finite(T(arrival(b) - a.value)))
-      refuse_key(keys, i + 1,
-                 "is further from the key before it, at " + spans::text_of(a.value) + ", than numbers hold");
+      refuse_key(
+          keys, i + 1,
+          "is too far from the key before it, at " + spans::text_of(a.value) + ", for a number to hold the difference");
     if (kind == SpanKind::shape) {
       append_shape(spans, a, b.time, arrival(b));
     } else if (kind == SpanKind::cubic) {

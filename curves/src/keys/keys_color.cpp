@@ -9,10 +9,10 @@ namespace {
 constexpr double full_turn = 0x1.921fb54442d18p+2;
 
 // The turn from one hue to another, both from 0 to a full turn.
-// Source: W3C, "CSS Color Module Level 4", 12.4: between equal hues the longer way is all the way around, upward;
-// between opposite ones both ways are as the numbers go.
+// Source: W3C, "CSS Color Module Level 4", 12.4: between equal hues the longer way is a whole turn upward; between
+// opposite ones both ways follow the numbers.
 double hue_step(double from, double to, HueRule rule) noexcept {
-  constexpr double same = 1e-9;  // hues that are equal, or opposite, but for the rounding of their colors
+  constexpr double same = 1e-9;  // tolerance for hues to be equal or opposite: the rounding of their colors
   double step = to - from;       // the shorter way
   const bool opposite = std::abs(std::abs(step) - full_turn / 2) <= same;
   if (step > full_turn / 2 && !opposite) step -= full_turn;
@@ -35,20 +35,20 @@ double hue_step(double from, double to, HueRule rule) noexcept {
 // Coordinates at a key, arriving and leaving.
 struct Stop {
   Vec4 arriving, leaving;
-  bool jumps;  // from one color to another
+  bool jumps;  // the arriving color differs from the leaving one
 };
 
-// A hue with the turns on top of it that led there.
+// A hue that counts the turns made on the way to it.
 class TurnedHue {
  public:
   [[nodiscard]] double angle() const noexcept { return angle_; }
   void turn_to(double hue, HueRule rule) noexcept {
-    // From 0 to a full turn, as the angle of the color alone: the turns would round it.
+    // From 0 to a full turn, the angle of the color without the turns, which would round it.
     const double to = hue < 0 ? hue + full_turn : hue;
     angle_ += hue_step(hue_, to, rule);
     hue_ = to;
   }
-  /// To the very hue where it is, as a color without one takes that of the other.
+  /// To the same hue again, for a color without a hue, which takes that of the other end.
   void turn_to_itself(HueRule rule) noexcept { angle_ += hue_step(hue_, hue_, rule); }
 
  private:

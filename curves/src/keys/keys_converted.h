@@ -1,6 +1,6 @@
 #pragma once
 
-// Curves whose keys are interpolated in other coordinates than those of their values. Keys are checked already.
+// Curves whose keys are interpolated in coordinates other than those of their values. Keys were checked before.
 
 #include <tweenfall/curves/keys.h>
 

@@ -32,7 +32,7 @@ T logarithm(std::span<const Key<T>> keys, std::size_t i, const T& value) {
   return result;
 }
 
-// A slope of the value is a relative one of the logarithm.
+// A slope of the value, divided by the value, is the slope of its logarithm.
 template <class T>
 void make_relative(std::optional<Tangent<T>>& tangent, const T& value) {
   if (!tangent) return;

@@ -17,7 +17,7 @@ Quat unit(std::span<const Key<Quat>> keys, std::size_t i, const Quat& value) {
   try {
     return normalized(value);
   } catch (const std::invalid_argument& error) {
-    refuse_key(keys, i, std::string("is no rotation: ") + error.what());
+    refuse_key(keys, i, std::string("is not a rotation: ") + error.what());
   }
 }
 
@@ -29,7 +29,7 @@ void check_turn(std::span<const Key<Quat>> keys, std::size_t i) {
     refuse_key(keys, i, "turns along an axis, so the axis must not be zero");
 }
 
-// The short way and the whole turns on top of it, in the axes of `from`.
+// The short way and the additional whole turns, in the axes of `from`.
 struct Way {
   Vec3 shorter, spin;
 };
@@ -40,7 +40,7 @@ Way way_of(std::span<const Key<Quat>> keys, std::size_t i, const Quat& from, con
   Vec3 direction = shorter;
   double turns = turn.whole_turns;
   if (shorter.isZero(0)) {
-    // Equal rotations leave the direction open; without one there is nothing to go the long way around.
+    // Between equal rotations the direction is undefined, and without one there is no long way around.
     if (turn.whole_turns == 0) return {shorter, Vec3(0, 0, 0)};
     if (turn.axis.isZero(0))
       refuse_key(keys, i, "makes whole turns to an equal rotation, so it needs an axis to turn about");
@@ -65,7 +65,7 @@ std::vector<turns::Stretch> stretches_of(std::span<const Key<Quat>> keys, bool l
     const Quat value = unit(keys, i + 1, next.value);
     const Quat to = next.value_in ? unit(keys, i + 1, *next.value_in) : value;
     const Way way = way_of(keys, i, from, to, long_way);
-    // The sign that is reached by turning, so that components stay continuous.
+    // With the sign that turning arrives at, so that components stay continuous.
     const Quat arrived = hemisphere_aligned(to, from * exp_map(way.shorter + way.spin));
     result.push_back({keys[i].time, next.time - keys[i].time, from, arrived, way.shorter, way.spin});
     from = next.value_in ? hemisphere_aligned(value, arrived) : arrived;
@@ -85,7 +85,7 @@ Slopes slopes_of(std::span<const Key<Quat>> keys, const std::vector<turns::Stret
   return choose_slopes(request);
 }
 
-// A constant turn, or one through the pieces of a shape: all of the way is one polynomial times a vector.
+// A turn at constant speed, or through the pieces of a shape: the whole way is one polynomial times a vector.
 void append_shape(std::vector<RotationSpan>& spans, const Key<Quat>& from, const turns::Stretch& stretch) {
   const double end = stretch.start + stretch.duration;
   const Vec3 way = stretch.way + stretch.spin;
@@ -124,8 +124,8 @@ RotationSpan at_rest_span(const turns::Stretch& stretch) {
   return span;
 }
 
-// The angular velocity that a side states or its rule chose, in world axes; the rule's and the straight way's are in
-// the axes of the key's own rotation.
+// The angular velocity that a side states or its rule chose, in world axes. `chosen` and `straight`, the rule's and
+// that of the straight way, are in the axes of the key's own rotation.
 Vec3 angular_slope(const std::optional<Tangent<Quat>>& tangent, const Quat& rotation, const Vec3& chosen,
                    const Vec3& straight) {
   const TangentKind kind = tangent ? tangent->kind : TangentKind::automatic;
@@ -144,7 +144,7 @@ RotationSpan hermite_span(const Key<Quat>& a, const Key<Quat>& b, const turns::S
   constexpr double third = 1.0 / 3;
   const double w0 = a.out ? a.out->weight : third, w1 = b.in ? b.in->weight : third;
   const bool plain = w0 == third && w1 == third;
-  // Whole turns go on evenly in the cubic's own variable, which at an end runs 1/(3 weight) times as fast as time.
+  // Whole turns are even in the cubic's own variable, which at an end runs 1/(3 weight) times as fast as time.
   const double share0 = plain ? 1 : third / w0, share1 = plain ? 1 : third / w1;
   const Vec4 d0 = turns::padded(s.duration * leaving - share0 * s.spin);
   const Vec4 d1 = turns::padded(right_jacobian_inverse(s.way) * Vec3(s.duration * arriving - share1 * s.spin));

@@ -9,7 +9,7 @@
 namespace tweenfall::keying {
 namespace {
 
-// With widths a and b time has no stretch backwards inside the unit square, and inside the ellipse
+// With widths a and b, time never runs backwards inside the unit square, nor inside the ellipse
 //     a^2 + a b + b^2 - 2 (a + b) + 1 = 0,
 // which touches the axes at 1 and leaves the square at its upper right corner.
 double ellipse(double a, double b) noexcept {
@@ -37,7 +37,7 @@ HandleWidths keep_start(double a, double b) noexcept {
 namespace tweenfall {
 
 bool runs_backwards(const HandleWidths& w) noexcept {
-  // What is no more than the rounding of the edge does not count.
+  // Beyond the edge by no more than rounding does not count.
   return (w.start > 1 || w.end > 1) && keying::ellipse(w.start, w.end) > 1e-15;
 }
 

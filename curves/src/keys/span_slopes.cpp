@@ -7,7 +7,7 @@
 namespace tweenfall::keying {
 namespace {
 
-// On a loop whose last span goes on by the rule of its first, the run that crosses the seam is one run.
+// On a loop whose last span has the same rule as its first, the run that crosses the seam is one run.
 std::size_t seam_run(const SlopeRequest& request) {
   const std::size_t spans = request.durations.size();
   if (request.ends != Ends::wrap || spans == 0) return 0;
@@ -28,7 +28,7 @@ SlopeRequest rotated(const SlopeRequest& request, std::size_t first) {
   turn(result.durations, first);
   turn(result.secants, first * request.dimensions);
   turn(result.span_eases, first);
-  // The first and the last key are one key; the first says how it leaves.
+  // The first and the last key are the same; the ease of the first one counts.
   result.eases.pop_back();
   turn(result.eases, first);
   result.eases.push_back(result.eases.front());

@@ -17,7 +17,7 @@ struct SlopeRequest {
   std::vector<double> secants;    ///< U/s, `dimensions` a span
   Ends ends;
   std::vector<const Ease*> eases;       ///< one per key
-  std::vector<const Ease*> span_eases;  ///< one per span: whose rule makes its slopes; null where none does
+  std::vector<const Ease*> span_eases;  ///< one per span: the ease whose rule makes its slopes; null where none does
 };
 
 struct Slopes {
@@ -26,7 +26,7 @@ struct Slopes {
 
 [[nodiscard]] Slopes choose_slopes(const SlopeRequest& request);
 
-/// What span i becomes, and whose rule makes its slopes (a stated tangent's other side is as `smooth`).
+/// The kind of span i, and the ease whose rule makes its slopes (the side opposite a stated tangent is as `smooth`).
 struct SpanPlan {
   SpanKind kind;
   const Ease* slopes;

@@ -10,7 +10,7 @@ double limited(double slope, double limit) noexcept {
   return std::clamp(slope, -limit, limit);
 }
 
-// From 0 to 1 with f, drawn more to the nearer end. Source: Autodesk, AnimX (autoTangent), the family
+// From 0 to 1 with f, but drawn more to the nearer end. Source: Autodesk, AnimX (autoTangent), the family
 // g(c, f) = 1/2 + (f - 1/2)(1 - c + 4 c (f - 1/2)^2) with c = -1/2.
 double drawn_to_nearer(double f) noexcept {
   const double h = f - 0.5;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The slopes of the tangent kinds that look at both neighboring keys.
+// The slopes of the tangent kinds that depend on both neighboring keys.
 
 #include <tweenfall/curves/keys.h>
 

@@ -101,7 +101,7 @@ double pow(double x, double y) noexcept {
   if (rough > 709.8) return infinity;
   if (rough < -745.2) return 0;
   if (std::abs(rough) < 0x1p-60) return 1;
-  // A y beyond the reach of the split product only occurs where x is next to 1.
+  // A y too large for the split product only matters where x is close to 1.
   const double scale = std::abs(y) > 0x1p900 ? 0x1p-200 : 1;
   const Sum p = two_part::product(y * scale, l.high / scale);
   return exp_of(two_part::quick_sum(p.high, p.low + y * l.low));

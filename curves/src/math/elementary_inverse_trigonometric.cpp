@@ -29,8 +29,8 @@ Sum negated(const Sum& a) noexcept {
   return {-a.high, -a.low};
 }
 
-// Angle of (x, y) for 0 <= y <= x, x > 0: the nearest eighth of a slope is taken off, so that
-// a short series is left.
+// Angle of (x, y) for 0 <= y <= x, x > 0: the angle of the nearest eighth of a slope is subtracted, so that a short
+// series is left.
 Sum octant(const Sum& y, const Sum& x) noexcept {
   const int i = static_cast<int>(std::floor(8 * (y.high / x.high) + 0.5));
   const double c = i / 8.0;

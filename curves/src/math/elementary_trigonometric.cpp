@@ -27,7 +27,7 @@ struct Reduced {
   int quadrant;
 };
 
-// 32 bits of 2/pi from bit `first` on, counted from the point; before it all are 0.
+// 32 bits of 2/pi from bit `first` on, counted from the point; bits before the point are 0.
 std::uint32_t bits_from(int first) noexcept {
   if (first <= -32) return 0;
   if (first < 0) return two_over_pi_bits[0] >> -first;
@@ -36,16 +36,16 @@ std::uint32_t bits_from(int first) noexcept {
   return shift == 0 ? word[0] : (word[0] << shift) | (word[1] >> (32 - shift));
 }
 
-// For numbers beyond 2^30. Those bits of 2/pi that x makes into multiples of 4 are left out; of the others so many are
-// taken that even next to a multiple of pi/2 some 70 binary digits of the angle are right.
-// Source: Payne and Hanek, "Radian reduction for trigonometric functions", 1983.
+// For numbers beyond 2^30. The bits of 2/pi that x turns into multiples of 4 are left out; enough of the others are
+// used that even close to a multiple of pi/2 some 70 binary digits of the angle are right. Source: Payne and Hanek,
+// "Radian reduction for trigonometric functions", 1983.
 Reduced reduce_large(double x) noexcept {
   constexpr int limbs = 6, point = 32 * limbs - 2;  // of the product: two bits of quadrant, then the fraction
   int exponent = 0;
   const double fraction = std::frexp(std::abs(x), &exponent);
   const auto digits = static_cast<std::uint64_t>(fraction * 0x1p53);  // |x| = digits 2^(exponent - 53)
   const std::uint64_t parts[2] = {digits & 0xffffffffu, digits >> 32};
-  const int first = exponent - 53 - 2;  // the bit that `digits` makes into a 2
+  const int first = exponent - 53 - 2;  // the bit that contributes multiples of 2
   std::uint32_t product[limbs] = {};    // least limb first
   for (int part = 0; part < 2; ++part) {
     std::uint64_t carry = 0;
@@ -57,7 +57,7 @@ Reduced reduce_large(double x) noexcept {
   }
   int quadrant = static_cast<int>(product[limbs - 1] >> 30);
   product[limbs - 1] &= 0x3fffffffu;
-  const bool above = product[limbs - 1] >= 0x20000000u;  // nearer to the next quadrant: what is missing there
+  const bool above = product[limbs - 1] >= 0x20000000u;  // nearer to the next quadrant: take the distance to it
   if (above) {
     quadrant += 1;
     std::uint64_t carry = 1;

@@ -35,7 +35,7 @@ double Elliptic::amplitude(double u) const noexcept {
   for (int n = last_; n > 0; --n) {
     const Step& s = steps_[static_cast<std::size_t>(n)];
     const elementary::SinCos wave = elementary::sin_cos(phi);
-    // asin(c sin(phi) / a), which by itself would lose its digits where that is next to 1.
+    // asin(c sin(phi) / a), which computed directly would lose digits where its argument is close to 1.
     const double across = std::sqrt(s.a * s.a * wave.cos * wave.cos + s.b * s.b * wave.sin * wave.sin);
     phi = 0.5 * (phi + elementary::atan2(s.c * wave.sin, across));
   }

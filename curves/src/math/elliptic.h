@@ -10,7 +10,7 @@ namespace tweenfall::math {
 class Elliptic {
  public:
   /// @param parameter   m = k^2, 0 to 1
-  /// @param complement  1 - m, > 0; given beside it, for next to m = 1 the difference would say nothing
+  /// @param complement  1 - m, > 0; given separately, because close to m = 1 the difference would lose all digits
   Elliptic(double parameter, double complement) noexcept;
 
   [[nodiscard]] double quarter_period() const noexcept;            ///< K(m)
@@ -21,7 +21,7 @@ class Elliptic {
   [[nodiscard]] double delta(double cosine) const noexcept;
 
  private:
-  // From complements of 1e-300 the means meet in 15 steps.
+  // Even for complements of 1e-300 the means converge in 15 steps.
   static constexpr int most_steps = 20;
   struct Step {
     double a, b, c;

@@ -1,6 +1,6 @@
 #pragma once
 
-// A number with its first and second derivative: what conversions are written in, so that their rates are exact.
+// A number with its first and second derivative; conversions are written with it, so that their rates are exact.
 
 #include <tweenfall/curves/elementary.h>
 
@@ -44,7 +44,7 @@ inline Jet reciprocal(const Jet& a) noexcept {
   return chained(a, i, -i * i, 2 * i * i * i);
 }
 
-/// Cube root, odd; at zero the slope, which is infinite, is given as 0.
+/// Cube root, odd; at zero the slope, which is infinite, is returned as 0.
 inline Jet cbrt(const Jet& a) noexcept {
   if (a.v == 0) return {};
   const double root = elementary::cbrt(a.v), first = root / (3 * a.v);

@@ -18,7 +18,7 @@ double excess(double x, double sign) noexcept {
   return x * x * x / 6 * sum;
 }
 
-// Newton's method from a start at or above the root of an increasing convex function, down until it no longer falls.
+// Newton's method from a start at or above the root of an increasing convex function, until it stops descending.
 // `step` is the function over its slope.
 template <class Step>
 double descended(double x, const Step& step) noexcept {
@@ -37,8 +37,8 @@ namespace tweenfall::math {
 
 double eccentric_anomaly(double mean, double eccentricity) noexcept {
   const double e = eccentricity, m = std::abs(mean);
-  // Each lies above the root: sin E <= 1, sin E <= E, and E - sin E >= E^3 / pi^2 up to pi.
-  // Up to pi the function is convex, and its root lies there.
+  // Each bound lies above the root: sin E <= 1, sin E <= E, and E - sin E >= E^3 / pi^2 up to pi. Up to pi the function
+  // is convex, and its root lies there.
   using std::numbers::pi;
   constexpr double pi_squared = 0x1.3bd3cc9be45dep+3;
   const double above = std::min({pi, m + e, m / (1 - e), elementary::cbrt(pi_squared * m / std::max(e, 0.1))});
@@ -51,7 +51,7 @@ double eccentric_anomaly(double mean, double eccentricity) noexcept {
 
 double hyperbolic_anomaly(double mean, double eccentricity) noexcept {
   const double e = eccentricity, m = std::abs(mean);
-  // Each lies above the root: e sinh H - H >= (e - 1) sinh H, >= e H^3 / 6, and from H = 2.2 on >= e sinh(H) / 2.
+  // Each bound lies above the root: e sinh H - H >= (e - 1) sinh H, >= e H^3 / 6, and from H = 2.2 on >= e sinh(H) / 2.
   const double above = std::min(
       {elementary::asinh(m / (e - 1)), elementary::cbrt(6 * m / e), std::max(2.2, elementary::asinh(2 * m / e))});
   const double anomaly = math::descended(above, [e, m](double x) {

@@ -6,7 +6,7 @@
 
 namespace tweenfall::math {
 
-// The value alone: the same bits as `evaluate_polynomial` gives it.
+// Only the value, with the same bits as from `evaluate_polynomial`.
 template <class V>
 inline V polynomial_value(const V* c, int degree, double s) noexcept {
   if (degree == 3) return c[0] + s * (c[1] + s * (c[2] + s * c[3]));
@@ -45,7 +45,7 @@ inline Polynomial<V> evaluate_polynomial(const V* c, int degree, double s) noexc
   return {value, first, 2 * half_second};
 }
 
-// The value alone, in every bit as above.
+// Only the value, with the same bits as above.
 template <class V>
 inline V polynomial_at(const V* c, int degree, double s) noexcept {
   return evaluate_polynomial(c, degree, s).value;

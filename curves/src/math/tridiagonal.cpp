@@ -15,8 +15,8 @@ void Tridiagonal::solve() {
     for (std::size_t c = 0; c < columns; ++c) at(i, c) = (at(i, c) - upper[i] * at(i + 1, c)) / diagonal[i];
 }
 
-// The two corner entries by Sherman and Morrison: A = B + u v^T with u = (g, 0, ..., low), v = (1, 0, ..., high / g); a
-// last column solves for u.
+// The two corner entries by the Sherman-Morrison formula: A = B + u v^T with u = (g, 0, ..., low), v = (1, 0, ..., high
+// / g); an additional column solves for u.
 void Tridiagonal::solve_cyclic() {
   const std::size_t n = rows();
   const double g = -diagonal[0], low = upper[n - 1], high = lower[0];

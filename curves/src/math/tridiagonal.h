@@ -1,6 +1,6 @@
 #pragma once
 
-// Systems of equations each of which ties an unknown to its two neighbors.
+// Tridiagonal systems: each equation ties an unknown to its two neighbors.
 
 #include <cstddef>
 #include <vector>
@@ -22,7 +22,7 @@ struct Tridiagonal {
   /// Precondition: diagonally dominant, or nearly so, for there is no pivoting.
   void solve();
 
-  /// The same where the neighbors go around: of the first row the last one, and of the last the first.
+  /// The same for a cycle: the first and the last row are neighbors.
   void solve_cyclic();
 };
 

@@ -11,13 +11,13 @@ namespace {
 
 using Weights = std::span<const Sample<double>>;
 
-// The weights as parts of a whole.
+// The weights divided by their sum.
 class Shares {
  public:
   Shares(Weights weights, std::size_t values) : weights_(weights) {
     if (values == 0) throw std::invalid_argument("a mix needs at least one value; none were given");
     if (weights.size() != values)
-      throw std::invalid_argument("a mix needs a weight a value; there are " + std::to_string(weights.size()) +
+      throw std::invalid_argument("a mix needs one weight per value; there are " + std::to_string(weights.size()) +
                                   " weights and " + std::to_string(values) + " values");
     math::Jet sum;
     std::size_t loaded = 0;
@@ -42,7 +42,7 @@ class Shares {
     const Sample<double>& w = weights_[i];
     return math::Jet{w.value, w.rate, w.acceleration} * whole_;
   }
-  /// Which value is all there is; `size()` where several count.
+  /// The index of the only value whose weight is not 0; `size()` where there are several.
   [[nodiscard]] std::size_t only() const noexcept { return only_; }
 
  private:
@@ -73,7 +73,7 @@ Sample<Quat> center(const Shares& shares, const Get& get) {
   return result;
 }
 
-// Without the acceleration, which takes half the time.
+// Without the acceleration, in half the time.
 template <class Get>
 Sample<Quat> turning(const Shares& shares, const Get& get) {
   Sample<Quat> result = rotations::outer(
@@ -153,7 +153,7 @@ Motion barycentric(std::span<const Motion> values, mixing::Weights weights) {
 std::array<Sample<double>, 3> triangle_weights(const Sample<Vec3>& point, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a;
   const Vec3 normal = ab.cross(ac);
-  // Products of the same numbers in the same order, so that a corner's weights come out as 1 and 0.
+  // Products of the same numbers in the same order, so that at a corner the weights are exactly 1 and 0.
   const auto towards_b = [&](const Vec3& v) { return v.cross(ac).dot(normal); };
   const auto towards_c = [&](const Vec3& v) { return ab.cross(v).dot(normal); };
   const double all = normal.dot(normal);

@@ -12,7 +12,7 @@
 namespace tweenfall::mixing {
 namespace {
 
-// Weights that make no mix are taken for equal ones, since evaluation does not throw.
+// Weights that cannot be mixed by are replaced by equal ones, since evaluation does not throw.
 void mend(std::span<Sample<double>> weights) noexcept {
   double sum = 0;
   bool good = true;
@@ -24,7 +24,7 @@ void mend(std::span<Sample<double>> weights) noexcept {
     for (Sample<double>& w : weights) w = {1, 0, 0};
 }
 
-// Where any of them may jump or kink.
+// The times at which any of them may jump or kink.
 template <class T>
 spans::Breaks all_breaks(std::span<const Curve<T>> values, std::span<const Curve<double>> weights) {
   spans::Breaks result;
@@ -47,7 +47,7 @@ Curve<T> mixed_curve(std::span<const Curve<T>> values, std::span<const Curve<dou
     throw std::invalid_argument("a mix of curves has 1 to " + std::to_string(most_mixed_curves) +
                                 " values and a weight for each; there are " + std::to_string(values.size()) +
                                 " values and " + std::to_string(weights.size()) + " weights");
-  // Each goes on by its own rule where it ends, so that the mix is endless.
+  // Each continues by its own rule where it ends, so the mix is endless.
   constexpr double endless = std::numeric_limits<double>::infinity();
   return CurveAccess::formula_with_knots<T>(
       [mix, of = std::vector<Curve<T>>(values.begin(), values.end()),

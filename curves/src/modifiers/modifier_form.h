@@ -1,6 +1,6 @@
 #pragma once
 
-// What every kind of modifier comes down to: a change of time, a change of value, or both.
+// The common form of all modifiers: a change of time, a change of value, or both.
 
 #include <tweenfall/curves/modifiers.h>
 
@@ -10,8 +10,8 @@
 
 namespace tweenfall::forms {
 
-/// A time with its derivatives by the time that was asked for, and from which side it is looked at: `in` from earlier
-/// times, as they lie on this time's own axis.
+/// A time with its derivatives with respect to the time sampled, and the side of the limit: `in` is that from earlier
+/// times, on this time's own axis.
 struct Moment {
   math::Jet time;
   Side side;
@@ -20,9 +20,9 @@ struct Moment {
 class ModifierForm {
  public:
   virtual ~ModifierForm() = default;
-  /// The time that lies further in. `memory` goes on to `change` of the same modifier.
+  /// Replaces the time by that of the next layer inward. `memory` is passed on to `change` of the same modifier.
   virtual void retime(Moment& moment, double& memory) const noexcept;
-  /// The value at the curve's own time.
+  /// Changes the value; `moment` is in the curve's own time.
   virtual void change(math::Jet& value, const Moment& moment, double memory) const noexcept;
 };
 
@@ -42,7 +42,7 @@ using FormPointer = std::unique_ptr<const ModifierForm>;
 /// @throws std::invalid_argument "NAME must be finite; it is ...".
 void check_finite(double value, const char* name);
 
-/// The other side, for time that runs the other way.
+/// The other side, for time that runs backwards.
 [[nodiscard]] inline Side opposite(Side side) noexcept {
   return side == Side::in ? Side::out : Side::in;
 }

@@ -44,11 +44,11 @@ class Stack {
     std::optional<ModifierRange> range;
     double influence;
 
-    // Of a moment inside the range; 0 outside.
+    // The influence at a moment inside the range; 0 outside.
     [[nodiscard]] math::Jet weight(const forms::Moment& m) const noexcept {
       if (!range) return math::constant(influence);
       const double t = m.time.v;
-      // The side decides at the ends, seen in the direction of time.
+      // At the ends of the range the side decides, in the direction of time.
       const bool arrives = m.side == Side::in;
       if (t < range->start || t > range->end) return math::constant(0);
       if (t == range->start && arrives && range->start < range->end) return math::constant(0);
@@ -83,7 +83,7 @@ class Stack {
     layers_.push_back({std::move(form), m.range, m.influence});
   }
 
-  // Through the first `count` layers.
+  // The curve seen through the first `count` layers.
   [[nodiscard]] Result evaluate(std::size_t count, forms::Moment moment) const noexcept {
     if (count == 0) {
       const Sample<double> s = curve_.sample(moment.time.v, moment.side);
@@ -117,7 +117,7 @@ class Stack {
 
 Curve<double> modified(const Curve<double>& curve, std::span<const Modifier> modifiers) {
   const auto stack = std::make_shared<const forms::Stack>(curve, modifiers);
-  // A slope stated outside is that of the curve below, to which the modifiers are added.
+  // A slope stated for outside applies to the curve below, on which the modifiers are laid.
   const std::vector<Modifier> kept(modifiers.begin(), modifiers.end());
   return CurveAccess::seen_through<double>(
       [stack](double time, Side side) { return stack->sample(time, side); }, curve.start(), curve.end(),

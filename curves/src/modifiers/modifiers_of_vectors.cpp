@@ -24,7 +24,7 @@ template <class T>
 Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> modifiers) {
   constexpr std::size_t size = static_cast<std::size_t>(spans::dimensions<T>);
   if (modifiers.size() != size)
-    throw std::invalid_argument("a vector of " + std::to_string(size) + " needs one list of modifiers a component; " +
+    throw std::invalid_argument("a vector of " + std::to_string(size) + " needs one list of modifiers per component; " +
                                 std::to_string(modifiers.size()) + " were given");
   std::vector<Curve<double>> parts;
   for (std::size_t i = 0; i < size; ++i) {

@@ -17,7 +17,7 @@ std::uint64_t scrambled(std::uint64_t z) noexcept {
   return z ^ (z >> 31);
 }
 
-// From -1 to 1 by the whole number `cell`.
+// A slope from -1 to 1 chosen by the whole number `cell`.
 double slope_at(double cell, std::uint64_t seed) noexcept {
   const auto index = static_cast<std::uint64_t>(static_cast<std::int64_t>(cell));
   return static_cast<double>(scrambled(seed ^ scrambled(index)) >> 11) * 0x1p-52 - 1;

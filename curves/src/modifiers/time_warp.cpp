@@ -10,7 +10,7 @@ class TimeWarpForm : public ModifierForm {
   void retime(Moment& m, double&) const noexcept override {
     const Sample<double> s = clock_.sample(m.time.v, m.side);
     m.time = math::chained(m.time, s.value, s.rate, s.acceleration);
-    // Where the clock turns, both sides look from the same one.
+    // Where the clock reverses, both sides approach from the same one.
     if (s.rate < 0)
       m.side = opposite(m.side);
     else if (s.rate == 0 && s.acceleration != 0)

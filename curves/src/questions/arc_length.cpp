@@ -20,14 +20,14 @@ double product(const V& a, const V& b) noexcept {
     return a.dot(b);
 }
 
-// Where a quintic stands for the curve, the curve's own rate tells its speed better, except next to an infinite rate,
-// where that is limited.
+// Where a quintic replaces the curve, the curve's own rate gives its speed more exactly, except close to an infinite
+// rate, which is limited there.
 template <class V>
 struct PathPiece : CurvePiece<V> {
   bool has_own_rate = false;
 };
 
-// By the piece's own variable.
+// Speed with respect to the piece's own variable.
 template <class V>
 double speed(const Curve<V>& path, const PathPiece<V>& piece, double s) noexcept {
   if (piece.has_own_rate) return (piece.to - piece.from) * splines::length_of(path.rate(piece.time_at(s)));
@@ -65,7 +65,7 @@ std::vector<PathPiece<V>> path_pieces(const Curve<V>& path, double from, double 
   return result;
 }
 
-// Part of a piece on which Gauss's rule is good for every beginning of it.
+// Part of a piece on which Gauss's rule is accurate from its start to any point.
 struct MeasuredPiece {
   std::size_t piece;
   double from, to;        // positions in the piece
@@ -134,7 +134,7 @@ struct MeasuredPath<T>::Data {
     return stretches.empty() ? 0 : stretches.back().before + stretches.back().length;
   }
 
-  // Position within a stretch at which `rest` of it is done.
+  // Position within a stretch at the length `rest` from its start.
   [[nodiscard]] double position(const questions::MeasuredPiece& stretch, double rest) const noexcept {
     const questions::PathPiece<T>& piece = pieces[stretch.piece];
     if (!(rest > 0)) return stretch.from;
@@ -214,7 +214,7 @@ Sample<T> MeasuredPath<T>::sample_at(double length_from_start, Side side) const 
   if (piece.exact()) {
     p = math::evaluate_polynomial(piece.c.data(), piece.degree, s);
   } else {
-    // By length all parameters are alike.
+    // Derivatives by length do not depend on the parameter used.
     const Sample<T> own = d.path.sample(time, s < 1 ? Side::out : Side::in);
     p = {own.value, own.rate, own.acceleration};
   }
@@ -224,7 +224,7 @@ Sample<T> MeasuredPath<T>::sample_at(double length_from_start, Side side) const 
     const double pace = std::sqrt(square);
     return {value, p.first / pace, (p.second - (questions::product(p.first, p.second) / square) * p.first) / square};
   }
-  // Where the path stands for an instant it leaves along its second derivative, and arrives against it.
+  // Where the path stops for an instant, it leaves along its second derivative, and arrives against it.
   if (!(bend > 0)) return {value, zero<T>(), zero<T>()};
   return {value, ((s < 1 ? 1 : -1) / std::sqrt(bend)) * p.second, zero<T>()};
 }
@@ -246,7 +246,7 @@ Curve<T> at_even_speed(const Curve<T>& path, double start, double duration) {
   const double pace = measured.length() / duration;
   return Curve<T>(
       [measured, start, duration, pace](double time, Side side) {
-        // The end itself, whatever the rounding of the way there.
+        // The end itself, whatever rounding happened on the way there.
         const double done = time >= start + duration ? measured.length() : pace * (time - start);
         Sample<T> s = measured.sample_at(done, side);
         s.rate = pace * s.rate;

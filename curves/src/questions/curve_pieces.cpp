@@ -20,26 +20,26 @@ auto stored(const T& value) noexcept {
     return value;
 }
 
-// Something smooth between two times, as quintics. `sampler(time, side)` gives value, rate and acceleration.
+// A smooth function between two times, as quintics. `sampler(time, side)` gives value, rate and acceleration.
 template <class V, class Sampler>
 class Quintics {
  public:
   Quintics(std::vector<CurvePiece<V>>& result, const Sampler& sampler, double from, double to)
       : result_(result), sampler_(sampler) {
     double scale = 0;
-    // Not evenly, lest an oscillation be met at its zeros alone.
+    // Not evenly spaced, so that an oscillation is not sampled at its zeros only.
     for (int i = 0; i <= first_parts; ++i)
       for (const double off : {0.0, 0.37}) {
         const V v = sampler(std::min(mark(from, to, i) + off / first_parts * (to - from), to), Side::in).value;
         for (int k = 0; k < spans::dimensions<V>; ++k) scale = std::max(scale, std::abs(spans::component(v, k)));
       }
-    // A time, and a position in a span, is known to its last bit only, which counts where the curve is steep.
+    // A time, and a position in a span, is exact to its last bit only, which matters where the curve is steep.
     time_rounding_ = 1e-15 * std::max({std::abs(from), std::abs(to), to - from});
     for (int i = 0; i < first_parts; ++i) {
       const double a = mark(from, to, i), b = mark(from, to, i + 1);
       if (!(b > a)) continue;
       const std::size_t before = result.size();
-      // What is too rough for so many parts is taken less exactly.
+      // A function too rough for that many parts is approximated less exactly.
       for (tolerance_ = 1e-12 * scale;; tolerance_ *= 100) {
         budget_ = most_parts;
         add(a, sampler(a, Side::out), b, sampler(b, Side::in), 0);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int highest_order = 8;
 
-// A number of any degree that the recursion below needs.
+// A polynomial of any degree that the recursion below needs.
 struct LongPolynomial {
   int degree = 0;
   std::array<double, 24> c{};
@@ -135,7 +135,7 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
   return sign * segment_derivative<T>(d, i, u, order);
 }
 
-// Whether the rate beyond an end is one value or a loop of the rates inside.
+// Whether the rate beyond an end is constant or a loop of the rates inside.
 template <class T>
 bool is_plain_outside(const OutsideRule<T>& rule) noexcept {
   return !spans::loops(rule.rule) || (rule.rule != Outside::pingpong && rule.plays == 0);
@@ -148,7 +148,7 @@ spans::CurveEnd<T> end_of_rate(const Curve<T>& curve, bool early) noexcept {
   return {{Outside::hold}, early ? curve.rate(curve.start(), Side::in) : curve.rate(curve.end(), Side::out), {}};
 }
 
-// Where spans do not say it.
+// The rate as a formula, where spans cannot express it.
 template <class T>
 Curve<T> formula_of_rate(const Curve<T>& curve, const spans::CurveEnd<T>& before, const spans::CurveEnd<T>& after) {
   const auto sampler = [curve](double time, Side side) {
@@ -159,7 +159,7 @@ Curve<T> formula_of_rate(const Curve<T>& curve, const spans::CurveEnd<T>& before
       CurveAccess::formula_with_knots<T>(sampler, curve.start(), curve.end(), CurveAccess::breaks(curve)), before,
       after);
   if (is_plain_outside(curve.rule_before()) && is_plain_outside(curve.rule_after())) return rate;
-  // Else the curve itself tells what its rate is outside.
+  // Otherwise the rate outside comes from the curve itself.
   return CurveAccess::seen_through<T>(
       sampler, curve.start(), curve.end(), CurveAccess::breaks(curve), {curve.before(), {}, curve.rule_before().plays},
       {curve.after(), {}, curve.rule_after().plays},

@@ -94,7 +94,7 @@ std::vector<double> solve(const Curve<double>& curve, double level, double from,
     std::vector<double> c = questions::component_polynomial(piece, 0);
     c[0] -= level;
     if (std::all_of(c.begin(), c.end(), [](double v) { return v == 0; })) {
-      // The ends of the rest; a rest that goes on is not cut at a knot.
+      // The ends of a stretch at rest; one that continues over a knot is not cut there.
       const bool goes_on = result.size() > 1 && result.back() == piece.from &&
                            curve.value(0.5 * (result[result.size() - 2] + piece.from)) == level;
       if (goes_on)

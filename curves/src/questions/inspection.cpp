@@ -65,7 +65,7 @@ std::vector<Continuity> continuity(const Curve<T>& curve, double tolerance) {
     const Sample<T> in = curve.sample(t, Side::in), out = curve.sample(t, Side::out);
     const double nearest = std::min(i > 0 ? t - knots[i - 1] : curve.duration(),
                                     i + 1 < knots.size() ? knots[i + 1] - t : curve.duration());
-    // What rounding of the values alone may do to a derivative.
+    // The error of a derivative that comes from rounding of the values.
     double rounding = 1e-14 * (splines::length_of(questions::vector_of(in.value)) +
                                splines::length_of(questions::vector_of(out.value)));
     const auto same = [&](const auto& a, const auto& b) {

@@ -42,7 +42,7 @@ Span<T> integrated(const Span<T>& span, double duration, const T& first) {
   return result;
 }
 
-// The area up to any time, where a degree of 6 or a warp stands in the way of spans.
+// The area up to any time, where spans cannot hold it: because of degree 6 or a warp.
 template <class T>
 struct Area {
   Curve<T> curve;
@@ -58,7 +58,7 @@ struct Area {
   }
 };
 
-// The area climbs on where the curve repeats, and at the value that the curve holds.
+// Where the curve repeats, the area repeats with an offset; where it holds, the area grows at the held value.
 template <class T>
 OutsideRule<T> outside_of_area(const Curve<T>& curve, bool early) noexcept {
   const OutsideRule<T>& rule = early ? curve.rule_before() : curve.rule_after();

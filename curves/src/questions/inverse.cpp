@@ -14,7 +14,7 @@
 namespace tweenfall::questions {
 namespace {
 
-// A falling curve is seen upside down, so that everything rises.
+// A falling curve is turned upside down, so that everything rises.
 struct Inverse {
   Curve<double> curve;
   double sign;
@@ -47,7 +47,7 @@ struct Inverse {
       time = at_end ? pieces[i].to : at_start ? pieces[i].from : time_in(i, level);
     else
       time = at_start ? pieces[i].from : at_end ? pieces[i].to : time_in(i, level);
-    // Between what arrives and what leaves there is a jump.
+    // A level between the arriving and the leaving value lies in a jump.
     const bool jump = level > arriving[i] || level < leaving[i];
     if (jump && level > leaving.front() && level < arriving.back()) return {time, 0, 0};
     const Side near = time <= pieces.front().from ? Side::out : time >= pieces.back().to ? Side::in : side;

@@ -51,7 +51,7 @@ std::vector<PolylinePoint<T>> polyline(const Curve<T>& curve, double from, doubl
     // A knot is one point, unless the curve jumps there.
     if (result.empty() || !(result.back().value == first.value)) result.push_back(first);
     std::vector<double> times;
-    // An error that asks for more than rounding leaves is met as far as possible.
+    // An error bound smaller than rounding is met as far as possible.
     questions::cut(times, piece, error > 2 * rounding ? error - rounding : rounding, 0);
     for (const double time : times) result.push_back({time, curve.value(time)});
     result.push_back({piece.to, curve.value(piece.to, Side::in)});

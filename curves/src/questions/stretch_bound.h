@@ -20,7 +20,7 @@ struct Apart {
 template <class T>
 [[nodiscard]] Apart apart(const Sample<T>& a, const Sample<T>& b) noexcept {
   if constexpr (std::is_same_v<T, Quat>) {
-    // The turn between them moves at the difference of their angular velocities, both seen from one side.
+    // The turn between them changes at the difference of their angular velocities, both in the same axes.
     const Quat turn = a.value * b.value.conjugate();
     const Vec3 carried = turn * b.rate, carried_acceleration = turn * b.acceleration;
     const Vec3 rate = a.rate - carried, acceleration = a.acceleration - carried_acceleration;
@@ -35,8 +35,8 @@ template <class T>
   }
 }
 
-/// By value and rate in the middle, and twice the greatest difference of accelerations seen. Where 2^-16 of the stretch
-/// does not decide, the answer is no.
+/// Bounded by value and rate in the middle, and twice the greatest difference of accelerations found. Where 2^-16 of
+/// the stretch is still undecided, the answer is no.
 template <class T>
 [[nodiscard]] bool stays_near(const Curve<T>& a, const Curve<T>& b, double from, double to, double bound,
                               int depth = 0) {

@@ -25,8 +25,8 @@ Sample<Quat> from_euler(const Sample<Vec3>& angles, const EulerOrder& order) noe
 
 Sample<Vec3> to_euler(const Sample<Quat>& rotation, const EulerOrder& order) noexcept {
   const Vec3 angles = to_euler(rotation.value, order);
-  // The columns are the axes that the three angles turn about: velocity = axes * rates. What the axes' own turning adds
-  // to the acceleration is what angles of no acceleration would have.
+  // The columns are the axes that the three angles turn about: velocity = axes * rates. The moving axes add to the
+  // acceleration what it would be for angles without acceleration.
   Mat3 axes;
   for (int i = 0; i < 3; ++i) axes.col(i) = from_euler(Sample<Vec3>{angles, Vec3::Unit(i), Vec3::Zero()}, order).rate;
   const double volume = axes.determinant();

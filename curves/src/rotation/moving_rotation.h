@@ -1,7 +1,7 @@
 #pragma once
 
-// Rotations together with how they move, in their own (turned) axes: there exponentials, logarithms and mixes
-// have short rates.
+// Rotations together with how they move, in their own (turned) axes, in which the rates of exponentials, logarithms and
+// mixes are short formulas.
 
 #include <tweenfall/curves/values.h>
 
@@ -36,13 +36,13 @@ struct TurningRotation {
 /// The same without the acceleration, to the bit.
 [[nodiscard]] TurningRotation exponential(const Vec3& r, const Vec3& first) noexcept;
 
-/// What the second derivative of the logarithm lacks: acceleration = J(r) r'' + this.
+/// The part of the acceleration that does not come from r'': acceleration = J(r) r'' + this.
 [[nodiscard]] Vec3 bent_acceleration(const Vec3& r, const Vec3& first) noexcept;
 
-/// Rotation vector on the way that the sign of the quaternion says: length 0 to 2 pi, more than pi where w < 0.
+/// Rotation vector along the way given by the sign of the quaternion: length 0 to 2 pi, more than pi where w < 0.
 [[nodiscard]] Vec3 signed_log(const Quat& q) noexcept;
 
-/// Its derivatives too; they are infinite at a whole turn, where they count as zero.
+/// With its derivatives; at a whole turn these are infinite and are returned as zero.
 [[nodiscard]] MovingVector signed_log(const MovingRotation& q) noexcept;
 
 /// a b

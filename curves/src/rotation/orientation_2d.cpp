@@ -8,7 +8,7 @@
 namespace tweenfall {
 
 double wrapped(double angle) noexcept {
-  // Exact: what is taken off is a multiple of the double that 2 pi is.
+  // Exact: a multiple of the double nearest to 2 pi is subtracted.
   return std::remainder(angle, 2 * std::numbers::pi);
 }
 

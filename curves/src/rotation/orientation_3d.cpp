@@ -92,12 +92,12 @@ Mat3 renormalized(const Mat3& matrix) {
   const auto part_across = [&](const Vec3& column) {
     return Vec3(column - Vec3(result.col(0)).dot(column) * Vec3(result.col(0)));
   };
-  // Of columns that are nearly one, rounding leaves a part along the first: taken away again, nothing is left of it.
+  // Where two columns are nearly parallel, rounding leaves a part along the first; removing it twice leaves none.
   const Vec3 second = part_across(part_across(matrix.col(1)));
   const double across = second.norm();
-  // What rounding leaves of a column along the first is no direction.
+  // The rounding left of a column along the first is not a direction.
   if (!(length > 0) || !(across > 1e-12 * matrix.col(1).norm()) || !std::isfinite(length) || !std::isfinite(across))
-    throw std::invalid_argument("a matrix whose columns have no two directions turns nothing");
+    throw std::invalid_argument("a matrix whose columns do not have two directions is not a rotation");
   result.col(1) = second / across;
   result.col(2) = Vec3(result.col(0)).cross(Vec3(result.col(1)));
   return result;

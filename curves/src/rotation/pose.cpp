@@ -62,7 +62,7 @@ Motion mix(const Motion& a, const Motion& b, double weight, double weight_rate) 
   result.scale_rate = (1 - weight) * a.scale_rate + weight * b.scale_rate + weight_rate * (b.pose.scale - a.pose.scale);
 
   // q = a exp(w r) with exp(r) = a^-1 b. In the axes of a, the rate of exp(r) is the difference of the
-  // two angular velocities; the left Jacobian (that of -r) leads to r' and back.
+  // two angular velocities; the left Jacobian (that of -r) converts it to r' and back.
   const Quat back = a.pose.rotation.conjugate();
   const rotations::LogParts way(back * b.pose.rotation);
   const rotations::ExpParts turn(weight * way.r);

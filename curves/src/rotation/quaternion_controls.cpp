@@ -23,7 +23,7 @@ void check_key_times(std::span<const double> times) {
   }
 }
 
-// All of unit length and each with the sign that is nearer to the one before.
+// All scaled to unit length, each with the sign that is nearer to the one before.
 std::vector<Quat> aligned(std::span<const Quat> rotations, const char* what) {
   std::vector<Quat> result;
   for (std::size_t i = 0; i < rotations.size(); ++i) {
@@ -31,7 +31,7 @@ std::vector<Quat> aligned(std::span<const Quat> rotations, const char* what) {
       const Quat unit = normalized(rotations[i]);
       result.push_back(result.empty() ? unit : hemisphere_aligned(unit, result.back()));
     } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(std::string(what) + " " + std::to_string(i) + " is no rotation: " + error.what());
+      throw std::invalid_argument(std::string(what) + " " + std::to_string(i) + " is not a rotation: " + error.what());
     }
   }
   return result;
@@ -66,7 +66,7 @@ Curve<Quat> clamped_rotation(std::span<const double> times, std::span<const Quat
                              const std::optional<Vec3>& start, const std::optional<Vec3>& end) {
   rotations::check_key_times(times);
   if (rotations.size() != times.size())
-    throw std::invalid_argument("a curve needs a rotation a time; there are " + std::to_string(rotations.size()) +
+    throw std::invalid_argument("a curve needs one rotation per time; there are " + std::to_string(rotations.size()) +
                                 " rotations and " + std::to_string(times.size()) + " times");
   for (const std::optional<Vec3>& velocity : {start, end})
     if (velocity && !spans::all_finite(*velocity))

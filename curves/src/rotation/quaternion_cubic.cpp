@@ -12,8 +12,8 @@ Curve<Quat> gltf_cubic_rotation(std::span<const double> times, std::span<const V
   const std::size_t n = times.size();
   if (n == 0) throw std::invalid_argument("a curve needs at least one key; none were given");
   if (in_tangents.size() != n || values.size() != n || out_tangents.size() != n)
-    throw std::invalid_argument("a cubic needs a time, a value and two tangents a key; there are " + std::to_string(n) +
-                                " times, " + std::to_string(values.size()) + " values, " +
+    throw std::invalid_argument("a cubic needs a time, a value and two tangents per key; there are " +
+                                std::to_string(n) + " times, " + std::to_string(values.size()) + " values, " +
                                 std::to_string(in_tangents.size()) + " arriving and " +
                                 std::to_string(out_tangents.size()) + " leaving tangents");
   std::vector<Quat> units;

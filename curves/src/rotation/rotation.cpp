@@ -17,13 +17,13 @@ Quat negated(const Quat& q) noexcept {
   return Quat(-q.w(), -q.x(), -q.y(), -q.z());
 }
 
-/// Beyond this square of a length the vector is scaled before its length is taken, which would overflow.
+/// A vector whose squared length is greater is scaled before its length is computed, which would overflow.
 constexpr double largest_square = 1e300;
 
 /// A rotation vector of any finite length, taken apart.
 struct FarTurn {
   Vec3 axis;
-  double half;  ///< of its angle, rad: the whole may be beyond all numbers
+  double half;  ///< half its angle, rad: the whole angle may be too large for a number
 };
 
 FarTurn far_turn(const Vec3& rotation_vector) noexcept {
@@ -73,7 +73,7 @@ Vec3 log_map(const Quat& q) noexcept {
 Mat3 right_jacobian(const Vec3& r) noexcept {
   const double square = r.squaredNorm();
   if (!(square <= rotations::largest_square)) {
-    // All but the axis cancels over so many turns: what is left beside it is below 1e-149.
+    // Over so many turns all but the axis averages out: the rest is below 1e-149.
     const Vec3 axis = rotations::far_turn(r).axis;
     return axis * axis.transpose();
   }
@@ -133,7 +133,7 @@ Vec3 to_euler(const Quat& q, const EulerOrder& order) noexcept {
   int i = order.axes[0];
   const int j = order.axes[1];
   int k = order.axes[2];
-  // The method is told for fixed axes; turning axes are the same in reverse.
+  // The method is stated for fixed axes; turning axes are the same in reverse.
   if (order.intrinsic) std::swap(i, k);
   const bool proper = i == k;
   if (proper) k = 3 - i - j;
@@ -154,7 +154,7 @@ Vec3 to_euler(const Quat& q, const EulerOrder& order) noexcept {
   double first = 0, third = 0;  // about the fixed axes, in order
   const bool at_zero = middle<lock, at_pi = middle> pi - lock;
   if (at_zero || at_pi) {
-    // Only the sum or the difference is defined; the angle that is the third in the caller's order is 0.
+    // Only the sum or the difference is defined; the angle that comes third in the caller's order is set to 0.
     const double free = at_zero ? 2 * half_sum : (order.intrinsic ? 2 : -2) * half_difference;
     (order.intrinsic ? third : first) = free;
   } else {

@@ -1,6 +1,6 @@
 #pragma once
 
-// The rotation from which the weighted ways to others cancel, and how it moves with them.
+// The rotation from which the weighted rotation vectors to others sum to zero, and how it moves with them.
 
 #include <tweenfall/curves/rotation.h>
 
@@ -13,14 +13,15 @@
 
 namespace tweenfall::rotations {
 
-// From one rotation to another by the short way.
+// The rotation vector from one rotation to another, the short way.
 [[nodiscard]] inline MovingVector short_way(const MovingRotation& from, const MovingRotation& to) noexcept {
   MovingRotation between = quotient(from, to);
   if (between.value.w() < 0) between.value.coeffs() *= -1;
   return signed_log(between);
 }
 
-/// The sum of the weighted ways from a rotation to others, and the slope by which a small turn of it is taken off.
+/// The sum of the weighted rotation vectors from a rotation to others, and the matrix by which a small turn of it
+/// reduces that sum.
 struct Balance {
   Vec3 sum{0, 0, 0};
   Mat3 slope = Mat3::Zero();
@@ -44,7 +45,7 @@ struct Balance {
   }
 };
 
-/// Near the center, where all lie near each other: the mean of the numbers, signs aligned to the heaviest.
+/// A start near the center if all lie near each other: the mean of the quaternions, with signs aligned to the heaviest.
 template <class Get, class Weight>
 [[nodiscard]] Quat center_guess(std::size_t count, const Get& get, const Weight& weight) noexcept {
   std::size_t heaviest = 0;
@@ -72,8 +73,8 @@ struct TurningCenter {
 /// `get(i)` is rotation i as a Sample, `weight(i)` its weight as a Jet; weights sum to one. The acceleration is left
 /// out.
 ///
-/// With r_i the way to rotation i in the axes of the center, sum w_i r_i = 0. A small turn d of the center takes
-/// J(-r_i)^-1 d off every way, from which Newton's method follows, and differentiating the sum gives the rate.
+/// With r_i the rotation vector to rotation i in the axes of the center, sum w_i r_i = 0. A small turn d of the center
+/// subtracts J(-r_i)^-1 d from each, which gives Newton's method, and differentiating the sum gives the rate.
 template <class Get, class Weight>
 [[nodiscard]] TurningCenter turning_center(std::size_t count, const Get& get, const Weight& weight) noexcept {
   Quat center = center_guess(count, get, weight);
@@ -87,7 +88,7 @@ template <class Get, class Weight>
     Vec3 step = balance.slope.inverse() * balance.sum;
     const double square = step.squaredNorm();
     if (!(square > 1e-32)) break;
-    if (square < 1e-16) {  // Newton's method leaves the square of it
+    if (square < 1e-16) {  // the error after one more step of Newton's method is the square of it
       center = turned(center, step);
       balance = Balance(center, count, get, weight);
       break;

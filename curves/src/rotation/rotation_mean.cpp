@@ -10,7 +10,7 @@ namespace tweenfall {
 Quat weighted_mean(std::span<const Quat> rotations, std::span<const double> weights) {
   if (rotations.empty()) throw std::invalid_argument("a mean needs at least one rotation; none were given");
   if (weights.size() != rotations.size())
-    throw std::invalid_argument("a mean needs a weight a rotation; there are " + std::to_string(weights.size()) +
+    throw std::invalid_argument("a mean needs one weight per rotation; there are " + std::to_string(weights.size()) +
                                 " weights and " + std::to_string(rotations.size()) + " rotations");
   double largest = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {

@@ -18,7 +18,7 @@ void check_angles(const Curve<T>& angles) {
       throw std::invalid_argument("angles must stay within 1e15 rad; from " + spans::text_of(time) +
                                   " s on they reach " + spans::text_of(reach) + " rad");
     if (const double rate = 100 * reach / duration; !std::isfinite(rate * rate))
-      throw std::invalid_argument("angles turn faster than numbers can tell, by " + spans::text_of(reach) +
+      throw std::invalid_argument("angles turn faster than a number can tell, by " + spans::text_of(reach) +
                                   " rad within " + spans::text_of(duration) + " s from " + spans::text_of(time) +
                                   " s on");
   };

@@ -1,6 +1,7 @@
 #pragma once
 
-// Rotations and rotation vectors with what ties their rates together, for one arc tangent or one sine and cosine.
+// Rotations and rotation vectors with the Jacobians that tie their rates together, at the cost of one arc tangent or
+// one sine and cosine.
 
 #include <tweenfall/curves/elementary.h>
 #include <tweenfall/curves/rotation.h>
@@ -24,7 +25,7 @@ struct LogParts {
                  : (1 - 0.5 * std::sqrt(x) * std::abs(q.w()) / std::sqrt(q.vec().squaredNorm())) / x;
   }
 
-  /// Times the inverse Jacobian of r, and of -r.
+  /// Multiplies by the inverse Jacobian of r, and of -r.
   [[nodiscard]] Vec3 right_inverse(const Vec3& v) const noexcept {
     const Vec3 cross = r.cross(v);
     return v + 0.5 * cross + c * r.cross(cross);
@@ -61,7 +62,7 @@ struct ExpParts {
     rotation = Quat(cosine, share * r[0], share * r[1], share * r[2]);
   }
 
-  /// Times the Jacobian of -r.
+  /// Multiplies by the Jacobian of -r.
   [[nodiscard]] Vec3 left(const Vec3& v) const noexcept {
     const Vec3 cross = r.cross(v);
     return v + a * cross + b * r.cross(cross);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Scalar functions of the angle that stand in the Jacobian of the exponential and its rate.
+// Scalar functions of the angle that occur in the Jacobian of the exponential and its rate.
 
 namespace tweenfall::rotations {
 
@@ -11,10 +11,11 @@ struct RotationSeries {
   explicit RotationSeries(double square) noexcept;
 };
 
-/// Below this square of an angle the functions are taken from their Taylor series in it.
+/// For squares of angles below this, the functions are computed from their Taylor series in the square.
 inline constexpr double series_limit = 0.5;
 
-/// With x = |r|^2 and t = |r|: cos(t/2), and sin(t/2)/t, by which a rotation vector becomes a quaternion's.
+/// With x = |r|^2 and t = |r|: cos(t/2), and sin(t/2)/t, the factor from a rotation vector to the vector part of its
+/// quaternion.
 struct HalfTurn {
   double cosine, sine_share;
 };

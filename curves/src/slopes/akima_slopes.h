@@ -1,6 +1,6 @@
 #pragma once
 
-// Slopes from the two secants on each side of a key, which Akima's rules weigh.
+// Slopes from the two secants on each side of a key, as weighted by Akima's rules.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace tweenfall::slopes {
 
-/// Beyond the ends of an open curve the secants go on in a straight line, as those of a parabola.
+/// Beyond the ends of an open curve the secants are extrapolated linearly, as for a parabola.
 [[nodiscard]] inline double secant_beyond(const SlopeProblem& p, std::ptrdiff_t span, std::size_t c) noexcept {
   const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(p.spans);
   if (span >= 0 && span < count) return p.secant(static_cast<std::size_t>(span), c);

@@ -11,7 +11,7 @@ namespace {
 using Advance = double (*)(double distance);
 
 double advance_of(const SlopeProblem& p, std::size_t span, Advance advance) noexcept {
-  // The largest part is taken out, so that no square overflows.
+  // Divided by the largest component first, so that no square overflows.
   double largest = 0, square = 0;
   for (std::size_t c = 0; c < p.dimensions; ++c)
     largest = std::max(largest, std::abs(p.secant(span, c) * p.durations[span]));
@@ -23,9 +23,9 @@ double advance_of(const SlopeProblem& p, std::size_t span, Advance advance) noex
   return advance(largest * std::sqrt(square));
 }
 
-// Catmull-Rom in a parameter of its own that runs evenly through each span, whatever the span's duration. The direction
-// at a key is one; the speed is each span's own.
-// Source: Yuksel, Schaefer, Keyser, "Parameterization and applications of Catmull-Rom curves", 2011.
+// Catmull-Rom in a parameter of its own that advances evenly through each span, whatever the span's duration. The
+// direction is continuous at a key; the speed is each span's own. Source: Yuksel, Schaefer, Keyser, "Parameterization
+// and applications of Catmull-Rom curves", 2011.
 void by_distance(const SlopeProblem& p, Advance advance) {
   const auto slopes_at = [&p, advance](std::size_t key, std::size_t span, double* result) {
     const std::size_t a = p.before(key), b = p.after(key);

@@ -12,13 +12,13 @@
 
 namespace tweenfall::slopes {
 
-// What ties the slope of a run's first key (or last, seen backwards) to its neighbor's.
+// The equation that ties the slope of a run's first key (or last, seen backwards) to its neighbor's.
 struct EndRow {
   double diagonal = 1, coupling = 0;
   std::vector<double> right;
 };
 
-// Of spans `own` is the key's, `next` the one after that.
+// `own` is the span beside the end key, `next` the one after that.
 template <class Run>
 EndRow end_row(const Run& p, const C2End& end, std::size_t own, std::size_t next, double sign) {
   EndRow row{1, 0, std::vector<double>(p.dimensions())};
@@ -45,7 +45,7 @@ EndRow end_row(const Run& p, const C2End& end, std::size_t own, std::size_t next
   return row;
 }
 
-// Thomas' algorithm over rows that are made as it passes them: of very many keys, memory is what takes the time.
+// Thomas' algorithm on rows that are made on the fly: for very many keys, memory access takes most of the time.
 template <class Run>
 std::vector<double> solve_rows(const Run& p, const EndRow& first, const EndRow& last) {
   const std::size_t spans = p.spans(), d = p.dimensions();
@@ -78,7 +78,7 @@ std::vector<double> solve_rows(const Run& p, const EndRow& first, const EndRow& 
   return slopes;
 }
 
-// Both ends of a parabola through three values.
+// Sets the slopes at both ends to those of the parabola through three values.
 template <class Run>
 void fit_parabola(const Run& p, C2End& start, C2End& end) {
   const double h0 = p.duration(0), h1 = p.duration(1);
@@ -92,7 +92,7 @@ void fit_parabola(const Run& p, C2End& start, C2End& end) {
 
 /// The slopes at the keys of a run, `dimensions` per key. With not-a-knot the first (last) two spans are one cubic;
 /// where there are too few spans for that, the polynomial of least degree through the values.
-/// @param p  answers `spans()`, `dimensions()` (4 at most), `duration(span)` and `secant(span, component)`
+/// @param p has `spans()`, `dimensions()` (4 at most), `duration(span)` and `secant(span, component)`
 template <class Run>
 [[nodiscard]] std::vector<double> c2_slopes(const Run& p, C2End start, C2End end) {
   const std::size_t last = p.spans() - 1, second = last > 0 ? 1 : 0;

@@ -33,12 +33,12 @@ struct Run {
   }
 };
 
-// @param slopes  at the run's keys, of which the last is left out where the run is a period
+// @param slopes at the run's keys, without the last one where the run is a period
 void store(const SlopeProblem& p, const std::vector<double>& slopes) {
   const std::size_t count = (p.last - p.first) * p.dimensions;
   double *leaving = p.leaving + p.first * p.dimensions, *arriving = p.arriving + p.first * p.dimensions;
   std::copy_n(slopes.begin(), count, leaving);
-  const std::size_t own = std::min(count, slopes.size() - p.dimensions);  // that arrive at a key of the run's own
+  const std::size_t own = std::min(count, slopes.size() - p.dimensions);  // arriving at the run's own keys
   std::copy_n(slopes.begin() + static_cast<std::ptrdiff_t>(p.dimensions), own, arriving);
   std::copy_n(slopes.begin(), count - own, arriving + own);
 }

@@ -8,7 +8,7 @@
 
 namespace tweenfall::slopes {
 
-/// What is asked of one end of a run of spans.
+/// The condition at one end of a run of spans.
 struct C2End {
   enum class Kind { slope, second, not_a_knot };
   Kind kind = Kind::second;
@@ -23,8 +23,8 @@ void solve_c2(const SlopeProblem& problem, const C2End& start, const C2End& end)
 /// The run as one period: slope and second derivative at its end are those at its start.
 void solve_c2_periodic(const SlopeProblem& problem);
 
-/// What an automatic kind does: one period where the run is the whole of a loop; flat at the ends of a curve whose
-/// options say so; else `usual`.
+/// The automatic choice of ends: one period where the run is a whole loop; flat at the ends of a curve whose options
+/// say so; else `usual`.
 void solve_c2_automatic(const SlopeProblem& problem, C2End::Kind usual);
 
 /// @throws std::invalid_argument unless both numbers at the ends of a run are finite.

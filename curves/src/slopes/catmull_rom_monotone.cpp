@@ -27,7 +27,7 @@ void catmull_rom_monotone(const SlopeProblem& p) {
       limit(p.leaving[i * p.dimensions + c], p.before(i));
       limit(p.arriving[i * p.dimensions + c], p.after(i + 1));
     }
-  // From limited neighbors these lie within the limits themselves.
+  // Computed from limited neighbors, these lie within the limits too.
   p.finish_open_ends();
 }
 

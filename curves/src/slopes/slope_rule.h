@@ -9,11 +9,11 @@
 
 namespace tweenfall {
 
-/// One run of consecutive spans whose slopes a rule is asked for, within all spans of a curve.
+/// One run of consecutive spans whose slopes a rule has to choose, among all spans of a curve.
 struct SlopeProblem {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  std::size_t spans;        ///< of the whole curve; there is one key more
+  std::size_t spans;        ///< of the whole curve; there is one more key
   std::size_t first, last;  ///< the run: spans first to last - 1
   std::size_t dimensions;
   const double* durations;  ///< s, one per span
@@ -43,13 +43,13 @@ struct SlopeProblem {
       }
   }
 
-  /// For rules that leave the ends of the curve open: flat, or such that the second derivative is zero there.
+  /// For rules that do not define the ends of the curve: flat, or with a second derivative of zero there.
   void finish_open_ends() const;
 };
 
 namespace slopes {
 
-/// On which other rules build.
+/// Other rules build on this one.
 void catmull_rom(const SlopeProblem& problem);
 
 }  // namespace slopes

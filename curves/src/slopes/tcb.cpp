@@ -11,8 +11,8 @@ void tcb(const SlopeProblem& p) {
   const auto slope = [&p](std::size_t key, std::size_t span, bool arriving, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
     if (a == SlopeProblem::none || b == SlopeProblem::none) return 0.0;
-    // The three numbers belong to the key; where it has none of its own (the run ends there), to the span. The last
-    // key of a loop is its first.
+    // The three numbers are those of the key; if it has none of its own (the run ends there), those of the span. The
+    // last key of a loop is its first.
     const bool seam = key == p.spans && p.eases[key]->slope_rule() != &tcb;
     const Ease& own = *p.eases[seam ? 0 : key];
     const auto& parameters = own.slope_rule() == &tcb ? own.parameters() : p.eases[span]->parameters();

@@ -13,7 +13,7 @@ void check_degree(int degree) {
                                 std::to_string(degree));
 }
 
-// One of the lower degree that lies outside the basis is zero.
+// A polynomial whose index lies outside the basis is zero.
 double bernstein_value(int degree, int index, double u) noexcept {
   if (index < 0 || index > degree || degree < 0) return 0;
   double weight = 1;

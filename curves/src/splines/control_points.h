@@ -1,6 +1,6 @@
 #pragma once
 
-// Bounds of polynomials over 0 to 1, proved by their Bezier control points: the polynomial stays in their hull.
+// Bounds of polynomials over 0 to 1 from their Bezier control points: the polynomial stays in their convex hull.
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ template <class V>
 /// decided within 2^-20 of the interval, the answer is no.
 template <class V>
 [[nodiscard]] bool stays_within(std::vector<V> points, double bound, int depth = 0) {
-  // Written so that what is not a number is not within.
+  // Written so that NaN is not within.
   if (!(length_of(points.front()) <= bound) || !(length_of(points.back()) <= bound)) return false;
   if (std::all_of(points.begin(), points.end(), [bound](const V& p) { return length_of(p) <= bound; })) return true;
   if (depth == 20) return false;

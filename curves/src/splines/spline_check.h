@@ -1,6 +1,6 @@
 #pragma once
 
-// What the data of every spline must be: errors name the index and the value.
+// The checks for the data of every spline; errors name the index and the value.
 
 #include <cmath>
 #include <span>

@@ -8,7 +8,7 @@
 namespace tweenfall::splines {
 namespace {
 
-// Control values of the unit interval, to power basis: the binomials times the forward differences.
+// From control values of the unit interval to power basis: the binomials times the forward differences.
 template <class T>
 void power_from_control(T* c, int degree) {
   for (int order = 1; order <= degree; ++order)
@@ -31,7 +31,7 @@ void check_degree(std::size_t degree) {
     refuse_spline("has a degree from 1 to " + std::to_string(max_degree) + "; here it is " + std::to_string(degree));
 }
 
-// The polynomial of the knot interval [knots[k], knots[k + 1]] at `first` times its start, then its end: a control
+// The blossom of the knot interval [knots[k], knots[k + 1]] at `at_start` times its start, then its end: a control
 // value of the interval's own Bezier form. Source: Ramshaw, "Blossoms are polar forms", 1989; de Boor's recursion.
 template <class T>
 T blossom(int degree, std::span<const double> knots, const T* control, std::size_t k, int at_start) {
@@ -86,7 +86,7 @@ Curve<T> b_spline(int degree, std::span<const double> knots, std::span<const T> 
                              spans::text_of(knots[i]) + ", lies before " + spans::text_of(knots[i - 1]));
     if (i > p && knots[i] == knots[i - p - 1])
       splines::refuse_spline("of degree " + std::to_string(degree) + " can have a knot " + std::to_string(p + 1) +
-                             " times at most; " + spans::text_of(knots[i]) + " stands more often");
+                             " times at most; " + spans::text_of(knots[i]) + " occurs more often");
   }
   if (!(knots[n] > knots[p]))
     splines::refuse_spline("needs knot number " + std::to_string(n) + ", " + spans::text_of(knots[n]) +

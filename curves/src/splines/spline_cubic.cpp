@@ -17,11 +17,12 @@ void check_data(std::span<const double> times, std::span<const T> values, const 
   for (const SplineEnd<T>* end : {&ends.start, &ends.end}) {
     if (!spans::all_finite(end->given))
       refuse_spline("has the non-finite number " + spans::text_of(end->given) + " at an end");
-    if (ends.closed && end->kind != SplineEnd<T>::Kind::automatic) refuse_spline("that is closed has no ends to state");
+    if (ends.closed && end->kind != SplineEnd<T>::Kind::automatic)
+      refuse_spline("that is closed cannot have ends given");
   }
 }
 
-// A curve's values as `c2_slopes` asks for them.
+// A curve's values in the form that `c2_slopes` takes.
 template <class T>
 struct Run {
   std::span<const double> times;
@@ -92,7 +93,7 @@ slopes::C2End c2_end(const SplineEnd<T>& end) {
   return result;
 }
 
-// Puts the given ends in the place of the rule's, one component at a time.
+// Replaces the ends that the rule chose by the given ones, one component at a time.
 template <class T>
 void state_ends(Interpolation<T>& frame, const SplineEnds<T>& ends) {
   using Kind = typename SplineEnd<T>::Kind;
@@ -164,11 +165,11 @@ Curve<T> cubic_spline(std::span<const double> times, std::span<const T> values, 
                              rules[i].name() + "\"");
     if (stated && rules[i].form().continuous_acceleration)
       splines::refuse_spline("by the rule \"" + rules[i].name() +
-                             "\" depends on its ends everywhere: c2_spline takes them");
+                             "\" depends on its ends everywhere, so they are given to c2_spline instead");
   }
   for (const SplineEnd<T>* end : {&ends.start, &ends.end})
     if (end->kind == SplineEnd<T>::Kind::not_a_knot)
-      splines::refuse_spline("whose slopes a rule chooses cannot be without a knot; c2_spline can");
+      splines::refuse_spline("whose slopes a rule chooses cannot have a not-a-knot end; c2_spline can");
   const std::size_t spans = frame.durations.size();
   keying::SlopeRequest request{static_cast<std::size_t>(spans::dimensions<T>),
                                frame.durations,

@@ -24,9 +24,9 @@ std::vector<double> spline_times(std::span<const T> points, Parametrization para
                                                                              : distance;
     const double next = times.back() + advance;
     if (!(next > times.back()) || !std::isfinite(next))
-      splines::refuse_spline("whose times go by distance needs points apart; number " + std::to_string(i % n) + ", " +
-                             spans::text_of(points[i % n]) + ", lies " + spans::text_of(distance) +
-                             " from the one before it");
+      splines::refuse_spline("whose times go by distance needs consecutive points to differ; number " +
+                             std::to_string(i % n) + ", " + spans::text_of(points[i % n]) + ", lies " +
+                             spans::text_of(distance) + " from the one before it");
     times.push_back(next);
   }
   return times;

@@ -8,8 +8,8 @@ namespace tweenfall {
 namespace words {
 namespace {
 
-constexpr std::size_t longest_compared = 64;  // names beyond this are not misspelled words
-constexpr std::size_t most_compared = 5000;   // so that a hostile file costs no more
+constexpr std::size_t longest_compared = 64;  // longer names are not misspelled words
+constexpr std::size_t most_compared = 5000;   // bounds the cost of a hostile file
 
 bool alike(char a, char b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
@@ -49,7 +49,7 @@ std::string nearest_name(std::string_view wrong, std::span<const std::string> na
   for (const std::string& name : names) {
     if (name.size() > words::longest_compared) continue;
     const std::size_t edits = edit_distance(wrong, name);
-    // What has nothing in common is not near, however short it is.
+    // A name that has nothing in common with `wrong` is not near, however short it is.
     if (edits >= fewest || edits >= std::max(wrong.size(), name.size())) continue;
     fewest = edits;
     best = name;

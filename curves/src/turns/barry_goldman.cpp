@@ -5,9 +5,9 @@
 namespace tweenfall::turns {
 namespace {
 
-// Beyond an end that has no neighbor, one is taken as far off in time as the other key, and such that the slope
-// there is what the slope rule says.
-// Source: Barry and Goldman, "A recursive evaluation algorithm for a class of Catmull-Rom splines", 1988.
+// Beyond an end without a neighbor, one is assumed as far away in time as the other key, and such that the slope there
+// is the one from the slope rule. Source: Barry and Goldman, "A recursive evaluation algorithm for a class of
+// Catmull-Rom splines", 1988.
 void barry_goldman(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Stretch& stretch = p.stretches[i];

@@ -24,7 +24,7 @@ void de_casteljau(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Stretch& stretch = p.stretches[i];
     const Vec3 leaving = p.leaving(i), arriving = p.arriving(i);
-    // Controls further off than a whole turn would be mistaken for nearer ones.
+    // Controls more than a whole turn away would be mistaken for nearer ones.
     constexpr double most = 3 * 6.2;
     if (p.is_plain(i) || std::max(leaving.norm(), arriving.norm()) > most) {
       p.spans.push_back(cubic_turn(stretch, leaving, arriving));

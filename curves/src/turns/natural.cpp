@@ -8,7 +8,7 @@
 namespace tweenfall::turns {
 namespace {
 
-// One stretch with what does not change while the rates are sought: J is the Jacobian at its end, A its inverse.
+// One stretch with what stays constant while the rates are solved for; `inverse` is that of the Jacobian J at its end.
 struct Part {
   double h;
   Vec3 way, total, spin_rate;
@@ -26,7 +26,7 @@ struct Part {
   // Rate of the rotation vector where the body arrives with the angular velocity v.
   [[nodiscard]] Vec3 vector_rate(const Vec3& v) const noexcept { return inverse * Vec3(v - spin_rate); }
 
-  // What arriving adds to the acceleration beyond J r'', and its derivative with respect to v.
+  // The part of the arriving acceleration beyond J r'', and its derivative with respect to v.
   [[nodiscard]] Vec3 bend(const Vec3& v) const noexcept { return rotations::bent_acceleration(way, vector_rate(v)); }
   [[nodiscard]] Mat3 bend_slope(const Vec3& v) const noexcept {
     // A quadratic form: its derivative along d is (B(w + d) - B(w - d)) / 2, exactly.
@@ -45,14 +45,14 @@ struct Row {
   Vec3 right;
 };
 
-// Angular velocities at the keys of a run, in the axes of the keys, for which the angular accelerations join.
+// Angular velocities at the keys of a run, in the axes of the keys, that make the angular acceleration continuous.
 class Rates {
  public:
   Rates(const std::vector<Stretch>& stretches, std::size_t first, std::size_t last, const NaturalEnds& ends)
       : ends_(ends) {
     for (std::size_t i = first; i < last; ++i) parts_.emplace_back(stretches[i]);
     const std::size_t keys = parts_.size() + (ends_.around ? 0 : 1);
-    // From the mean rates of the neighbors.
+    // Start from the mean rates of the neighbors.
     for (std::size_t k = 0; k < keys; ++k) {
       const Part *a = before(k), *b = after(k);
       Vec3 sum(0, 0, 0);
@@ -107,8 +107,8 @@ class Rates {
     return key < parts_.size() ? &parts_[key] : nullptr;
   }
 
-  // Jump of the angular acceleration at each key (at an end: all of it, or how far the rate is from the one asked for)
-  // with its derivatives; `right` is what a step must take away.
+  // Jump of the angular acceleration at each key (at an end: all of it, or the difference between the rate and the
+  // given one) with its derivatives; `right` is what a step must remove.
   [[nodiscard]] std::vector<Row> rows_at(const std::vector<Vec3>& rates) const {
     std::vector<Row> rows(rates.size());
     const std::size_t n = rates.size();
@@ -147,7 +147,7 @@ class Rates {
     return sum;
   }
 
-  // Block elimination. Around a loop the first unknown is kept as three more right sides and found last.
+  // Block elimination. Around a loop the first unknown becomes three more right-hand sides and is found last.
   [[nodiscard]] std::vector<Vec3> solve(const std::vector<Row>& rows) const {
     using Sides = Eigen::Matrix<double, 3, 4, Eigen::DontAlign>;
     const std::size_t n = rows.size(), first = ends_.around ? 1 : 0;
@@ -193,7 +193,7 @@ class Rates {
 
 }  // namespace
 
-// Source: Mayorov, "Smooth attitude interpolation", 2018, with Newton's method for its iteration.
+// Source: Mayorov, "Smooth attitude interpolation", 2018, with Newton's method in place of its iteration.
 void append_natural(const std::vector<Stretch>& stretches, std::size_t first, std::size_t last, const NaturalEnds& ends,
                     std::vector<RotationSpan>& spans) {
   const std::vector<Vec3> rates = Rates(stretches, first, last, ends).solved();

@@ -10,7 +10,7 @@ namespace tweenfall::turns {
 
 struct NaturalEnds {
   std::optional<Vec3> start{}, end{};  ///< angular velocity, rad/s, axes of the key; empty: no angular acceleration
-  bool around = false;                 ///< the last key is the first again
+  bool around = false;                 ///< the last key is the same as the first
 };
 
 void append_natural(const std::vector<Stretch>& stretches, std::size_t first, std::size_t last, const NaturalEnds& ends,

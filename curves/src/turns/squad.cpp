@@ -8,14 +8,14 @@
 namespace tweenfall::turns {
 namespace {
 
-// slerp(slerp(from, to, s), slerp(b, c, s), 2 s (1 - s)): leaving, it turns with the straight way plus twice the way
-// to the control b, so that b follows from the angular velocity wanted. With that of Catmull and Rom this is
+// slerp(slerp(from, to, s), slerp(b, c, s), 2 s (1 - s)): at the start its angular velocity is the straight way plus
+// twice the way to the control b, so that b follows from the velocity wanted. With that of Catmull-Rom this is
 // Shoemake's rule on even times. Source: Shoemake, "Quaternion calculus and fast animation", 1987.
 void squad(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Stretch& stretch = p.stretches[i];
     const Vec3 leaving = p.leaving(i) - stretch.way, arriving = p.arriving(i) - stretch.way;
-    // Controls further off than a whole turn would be mistaken for nearer ones.
+    // Controls more than a whole turn away would be mistaken for nearer ones.
     constexpr double most = 2 * 6.2;
     if (p.is_plain(i) || std::max(leaving.norm(), arriving.norm()) > most) {
       p.spans.push_back(cubic_turn(stretch, p.leaving(i), p.arriving(i)));

@@ -15,21 +15,21 @@ namespace tweenfall {
 
 namespace turns {
 
-/// One stretch between two keys. The turn that leads across it is about itself, so its vector is the same
-/// in the axes of both keys.
+/// One stretch between two keys. A turn does not change its own axis, so its vector is the same in the axes of both
+/// keys.
 struct Stretch {
   double start, duration;  ///< s
-  Quat from, to;           ///< signs are those reached by turning
+  Quat from, to;           ///< with the signs that turning arrives at
   Vec3 way;                ///< rotation vector of the short way, in the axes of the keys
-  Vec3 spin;               ///< whole turns on top, in the axes of the keys
+  Vec3 spin;               ///< additional whole turns, in the axes of the keys
 
-  /// Where the short way arrives.
+  /// `to` with the sign at which the short way arrives.
   [[nodiscard]] Quat near_to() const noexcept { return hemisphere_aligned(to, from); }
 };
 
 }  // namespace turns
 
-/// One run of consecutive stretches that share a rule, within all stretches of a curve.
+/// One run of consecutive stretches that share a rule, among all stretches of a curve.
 struct TurnProblem {
   const std::vector<turns::Stretch>& stretches;
   std::size_t first, last;  ///< the run: stretches first to last - 1
@@ -37,23 +37,23 @@ struct TurnProblem {
   const keying::Slopes& slopes;  ///< angular velocities by the run's slope rule, axes of the keys, whole turns included
   std::vector<RotationSpan>& spans;  ///< result, appended
 
-  /// What is left beside the whole turns, as rotation vectors over the span.
+  /// The slopes without the whole turns, as rotation vectors over the span.
   [[nodiscard]] Vec3 leaving(std::size_t i) const noexcept { return turning(slopes.leaving, i); }
   [[nodiscard]] Vec3 arriving(std::size_t i) const noexcept { return turning(slopes.arriving, i); }
-  /// At the first and last key of the curve, where no slope is asked for.
+  /// Whether the stretch begins or ends at an end of the curve where no slope is required.
   [[nodiscard]] bool starts_open(std::size_t i) const noexcept { return i == 0 && ends == Ends::secant; }
   [[nodiscard]] bool ends_open(std::size_t i) const noexcept {
     return i + 1 == stretches.size() && ends == Ends::secant;
   }
-  /// Where the neighbors of a span are, around a loop too; null where there is none.
+  /// The neighbors of a stretch, also around a loop; null where there is none.
   [[nodiscard]] const turns::Stretch* before(std::size_t i) const noexcept {
     return i > 0 ? &stretches[i - 1] : ends == Ends::wrap ? &stretches.back() : nullptr;
   }
   [[nodiscard]] const turns::Stretch* after(std::size_t i) const noexcept {
     return i + 1 < stretches.size() ? &stretches[i + 1] : ends == Ends::wrap ? &stretches.front() : nullptr;
   }
-  /// Whether slerps of slerps have nothing to add to the plain cubic with the slopes of the rule: all turns are about
-  /// one axis, where both are the same, or whole turns are near, which slerps cannot tell from none.
+  /// Whether to use the plain cubic with the slopes of the rule instead of slerps of slerps: all turns are about one
+  /// axis, where both are the same, or there are whole turns nearby, which slerps cannot tell from none.
   [[nodiscard]] bool is_plain(std::size_t i) const noexcept;
 
  private:
@@ -83,7 +83,7 @@ namespace turns {
 /// The cubic of rotation vectors with the angular velocities at its ends, as `leaving` and `arriving` give them.
 [[nodiscard]] RotationSpan cubic_turn(const Stretch& stretch, const Vec3& leaving, const Vec3& arriving);
 
-/// For slope rules that have them.
+/// The turn rules of the slope rules that have one.
 void de_casteljau(const TurnProblem& problem);
 void natural(const TurnProblem& problem);
 

@@ -270,7 +270,7 @@ TEST_CASE("modifiers of a vector change their component alone, and repeat with t
   CHECK(limited.rate(0.9) == Vec2(1, 0));
   CHECK(limited.with_outside(Outside::hold, Outside::repeat_offset).value(1.25) == Vec2(1.25, 2));
   CHECK_THROWS_WITH_AS((void)modified<Vec2>(line, std::span(lists, 1)),
-                       "a vector of 2 needs one list of modifiers a component; 1 were given", std::invalid_argument);
+                       "a vector of 2 needs one list of modifiers per component; 1 were given", std::invalid_argument);
   const std::vector<Modifier> bad[] = {{}, {{modifiers::Stepped{.step = 0}}}};
   CHECK_THROWS_WITH_AS((void)modified<Vec2>(line, bad), doctest::Contains("component 1, modifier 0: "),
                        std::invalid_argument);

@@ -323,7 +323,7 @@ TEST_CASE("data that is no spline is refused with index and value") {
   refused([&] { (void)clamped_knots(3, 5, 1, 0); }, "number 1, 0 s, does not come after 1 s");
   refused([&] { (void)b_spline<double>(1, t, v); }, "needs 5 knots here; 3 were given");
   const std::vector<double> thrice = {0, 0, 1, 1, 1, 1}, four = {1, 2, 3, 4}, turned = {0, 0, 2, 1, 3, 3};
-  refused([&] { (void)b_spline<double>(1, thrice, four); }, "2 times at most; 1 stands more often");
+  refused([&] { (void)b_spline<double>(1, thrice, four); }, "2 times at most; 1 occurs more often");
   refused([&] { (void)b_spline<double>(1, turned, four); }, "number 3, 1, lies before 2");
   const std::vector<Vec2> same = {{1, 2}, {3, 4}, {3, 4}};
   refused([&] { (void)spline_times<Vec2>(same, Parametrization::chordal); }, "number 2, (3, 4), lies 0 from");

@@ -378,7 +378,8 @@ TEST_CASE("keys that cannot be a curve are refused with index, time and value") 
   refused({{0, 1}, {-1, 2}}, "key 1 (time -1 s");
   refused({{0, not_a_number}}, "key 0");
   refused({{0, -1e308, Ease::linear()}, {1, 1e308}},
-          "key 1 (time 1 s, value 1e+308) is further from the key before it, at -1e+308, than numbers hold");
+          "key 1 (time 1 s, value 1e+308) is too far from the key before it, at -1e+308, for a number to hold the "
+          "difference");
   CHECK_NOTHROW(static_cast<void>(keyed_curve<double>({{0, -1e308, Ease::hold()}, {1, 1e308}})));
   refused({{not_a_number, 1}}, "finite time");
   refused({{0, 1, Ease::linear(), {}, given(1)}, {1, 2}}, "one of them decides");

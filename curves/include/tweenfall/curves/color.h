@@ -49,9 +49,9 @@ enum class HueRule { shorter, longer, increasing, decreasing };
 /// Every part, alpha too, brought to the nearer end of 0 to 1. Cheap; shifts hue and lightness.
 [[nodiscard]] Color clipped(const Color& color) noexcept;
 
-/// The color with its chroma reduced until clipping it makes no difference that is noticed; lightness and hue are kept
-/// up to that. The result is in gamut; a color that is in gamut already is returned unchanged. Source: W3C, "CSS Color
-/// Module Level 4", 13.2.
+/// The color with its chroma reduced until clipping makes a difference that is just not noticeable; lightness and hue
+/// are kept but for that difference. The result is in gamut; a color that is in gamut already is returned unchanged.
+/// Source: W3C, "CSS Color Module Level 4", 13.2.
 [[nodiscard]] Color reduced_chroma(const Color& color) noexcept;
 
 }  // namespace tweenfall
