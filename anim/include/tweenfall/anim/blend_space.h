@@ -1,12 +1,13 @@
 #pragma once
 
-/// Blend spaces: weights for poses that stand at places, from where a parameter is among them.
+/// Blend spaces: weights for poses that are placed along a line or on a plane, from the position of a parameter among
+/// them.
 ///
 /// A walk at 1.5 m/s, a run at 4 m/s: a parameter of 2 m/s gives each its weight. The parameter carries its rate and
-/// acceleration, and the weights carry theirs, exactly. Weights are 0 to 1 and sum to 1, at the place of an entry that
-/// entry's is 1 and the others' 0, exactly, and they are continuous everywhere. Their rates jump where the parameter
-/// goes from one stretch, triangle or band to the next: there they are those of the side to which it moves
-/// (`Side::out`) or from which it comes (`Side::in`).
+/// acceleration, and the weights carry theirs, exactly. Weights are 0 to 1, sum to 1 and are continuous everywhere; at
+/// the place of an entry its weight is exactly 1 and all others are 0. Their rates jump where the parameter goes from
+/// one stretch, triangle or band to the next: there they are those of the side to which it moves (`Side::out`) or from
+/// which it comes (`Side::in`).
 
 #include <tweenfall/curves/values.h>
 
@@ -17,7 +18,8 @@
 
 namespace tweenfall {
 
-/// Entries along a line: two neighbors share the weight, evenly between their places; beyond the ends the last has it.
+/// Entries along a line: two neighbors share the weight, linearly between their places; beyond the ends the last entry
+/// has all of it.
 class BlendLine {
  public:
   /// @param places  of the entries, in any order and any unit
@@ -32,16 +34,16 @@ class BlendLine {
 
  private:
   std::vector<double> places_;
-  std::vector<std::size_t> order_;  ///< entries from the least place on
+  std::vector<std::size_t> order_;  ///< entries in order of their places
 };
 
 /// Entries on a plane: the three corners of the triangle around the parameter share the weight, by its barycentric
-/// coordinates; outside of all triangles the nearest point on their border stands for the parameter.
+/// coordinates; outside all triangles the nearest point on their border is used instead of the parameter.
 ///
 /// The triangles are those of Delaunay, which have no entry inside their circumcircles; where four entries or more lie
-/// on one circle with none inside, as on a grid, one of several ways to cut is taken. "Nearest" counts both axes
-/// alike, so their units should make a step of one as far as a step of the other.
-/// Source: Lawson, "Software for C1 surface interpolation", 1977.
+/// on one circle with none inside, as on a grid, one of several triangulations is taken. "Nearest" weights both axes
+/// equally, so their units should be chosen such that equal steps on both mean equally much. Source: Lawson, "Software
+/// for C1 surface interpolation", 1977.
 class BlendPlane {
  public:
   /// @throws std::invalid_argument listing all problems: fewer than three, two at one place (nearer than 1e-9 of the
@@ -64,17 +66,18 @@ class BlendPlane {
   std::vector<Vec2> places_;
   Vec2 center_{0, 0};
   double size_ = 1;                  ///< of the whole
-  std::vector<Vec2> scaled_places_;  ///< about the center, the whole being of size 1
+  std::vector<Vec2> scaled_places_;  ///< relative to the center, with the whole scaled to size 1
   std::vector<std::array<std::size_t, 3>> triangles_;
   std::vector<std::size_t> border_;
 };
 
-/// Entries on a plane that share it by gradient bands: between an entry and each other one its influence falls evenly
-/// from 1 to 0, the least of these counts, and the weights are the influences divided by their sum. More entries than
-/// three may show at once, two are enough, and they may lie on one line; weights change more smoothly than those of
-/// triangles, but do not lead to the parameter: a blend of speeds has not quite the speed that was asked for.
+/// Entries on a plane that share it by gradient bands: from an entry towards each other one its influence falls
+/// linearly from 1 to 0; the least of these counts, and the weights are the influences divided by their sum. More than
+/// three entries may show at once, two entries are enough, and all may lie on one line; weights change more smoothly
+/// than those of triangles, but do not reproduce the parameter: a blend of speeds does not have exactly the speed that
+/// was requested.
 ///
-/// "Far" counts both axes alike. Beyond the entries the weights fade out to those of the border.
+/// Distances weight both axes equally. Beyond the entries the weights fade to those of the border.
 /// Source: Johansen, "Automated Semi-Procedural Animation for Character Locomotion", 2009, 6.3.
 class BlendBands {
  public:

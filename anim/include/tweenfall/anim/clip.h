@@ -19,7 +19,7 @@ struct ClipEvent {
   [[nodiscard]] bool is_interval() const noexcept { return to > from; }
 };
 
-/// What is told of an event: that it happened, or, of an interval, that it begins or ends.
+/// What is reported about an event: that it happened or, for an interval, that it begins or ends.
 enum class EventKind { moment, begin, end };
 
 enum class LoopMode { once, repeat, repeat_offset, pingpong };
@@ -39,7 +39,7 @@ struct Clip {
   std::vector<ClipEvent> events;  ///< in order of `from`
 };
 
-/// Largest finite knot or event over all tracks and events, s; infinity where there is none of either, but an endless
+/// Largest finite knot or event over all tracks and events, s; infinity where there is neither, but an endless
 /// formula.
 [[nodiscard]] double natural_duration(const Clip& clip) noexcept;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Where clips are not continuous: what follows them must not take a jump for a movement.
+/// Where clips are not continuous: code that follows a clip must not mistake a jump for a movement.
 
 #include <tweenfall/anim/clip.h>
 
@@ -9,7 +9,7 @@
 
 namespace tweenfall {
 
-/// Whether a track counts; none: all do.
+/// Whether a track counts; an empty filter: all do.
 using TrackFilter = std::function<bool(const Track&)>;
 
 /// Whether the track moves its node: its position, rotation or scale, or a number of them.

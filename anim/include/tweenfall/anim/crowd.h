@@ -2,9 +2,9 @@
 
 /// Clips for crowds: compiled once into a compact form, then sampled at any time at the same small cost.
 ///
-/// `compile` measures what it leaves out against the exact path, in the space of the whole figure, and goes on until
-/// the tolerance is kept. A compiled clip holds what moves joints; its events and other tracks stay with the clip that
-/// it was made from. Sampling is total, allocates nothing, and gives the same bits on every processor.
+/// `compile` measures its error against the exact path, in the space of the whole figure, and refines until the
+/// tolerance is met. A compiled clip holds the tracks that move joints; events and other tracks stay with the clip that
+/// it was made from. Sampling works at every time, allocates nothing, and gives the same bits on every processor.
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/crowd_pose.h>
@@ -20,11 +20,12 @@
 namespace tweenfall {
 
 struct CrowdSettings {
-  /// How far a point may be from where the exact path has it, in the space of the figure, m; > 0.
+  /// How far a point may be from its place on the exact path, in the space of the figure, m; > 0.
   double tolerance = 1e-4;
-  /// The points: this far from each joint along each of its axes, m; >= 0. The length of what hangs on a joint.
+  /// The points measured lie this far from each joint along each of its axes, m; >= 0. Choose the size of what is
+  /// attached to a joint.
   double arm = 0.1;
-  /// In the least room, where sampling takes half as long again.
+  /// Use the least memory; sampling then takes half as long again.
   bool smallest = false;
 };
 
@@ -42,11 +43,11 @@ class CrowdClip {
   [[nodiscard]] std::size_t groups() const noexcept { return crowd_groups(joints()); }
   [[nodiscard]] double duration() const noexcept;  ///< s
   [[nodiscard]] const Loop& loop() const noexcept;
-  /// The largest distance from the exact path that was measured, m: of the points that the settings tell of.
+  /// The largest measured distance from the exact path, m, for the points that the settings define.
   [[nodiscard]] double error() const noexcept;
-  [[nodiscard]] std::size_t byte_count() const noexcept;  ///< as many as `to_bytes` gives
+  [[nodiscard]] std::size_t byte_count() const noexcept;  ///< the size of what `to_bytes` returns
 
-  /// Where a play of the clip stands: the one clock of all its tracks, as `clock_at` has it.
+  /// The state of a play of the clip: one clock for all its tracks, as from `clock_at`.
   [[nodiscard]] ClipClock clock(double at, double speed, double stage_time, Side side = Side::out) const noexcept;
 
   /// The pose at a clock. @param pose  written; `groups()` of them
@@ -54,10 +55,10 @@ class CrowdClip {
   /// The same and its rates: the derivatives, with respect to stage time, of what is written to `pose`.
   /// @param rates  written; `groups()` of them
   void sample(const ClipClock& clock, std::span<CrowdGroup> pose, std::span<CrowdRates> rates) const noexcept;
-  /// The poses of many figures at their clocks, each as above; for figures of few joints it takes less time for each.
+  /// The poses of many figures at their clocks, each as above; for figures with few joints this is faster per figure.
   /// @param poses  written; `groups()` of them for each clock, figure after figure
   void sample(std::span<const ClipClock> clocks, std::span<CrowdGroup> poses) const noexcept;
-  /// The pose at a time of the clip; the ends hold.
+  /// The pose at a clip time; before the start and after the end, that of the start or the end.
   void sample(double clip_time, std::span<CrowdGroup> pose) const noexcept;
 
   /// Bytes to be kept: a version, a checksum and the clip; the same on every machine.
@@ -73,9 +74,9 @@ class CrowdClip {
   std::shared_ptr<const crowd::CompiledClip> compiled_;  // copies share it
 };
 
-/// The clip as the joints of `nodes` play it, one joint for each node; those without a track rest.
-/// @throws std::invalid_argument for a clip that does not fit the nodes or has no end, settings that are out of their
-///         ranges, and a tolerance that float cannot keep: it names how near it comes.
+/// The clip compiled for the joints of `nodes`, one joint for each node; nodes without a track stay at rest.
+/// @throws std::invalid_argument for a clip that does not fit the nodes or has no end, settings out of range, and a
+///         tolerance that float cannot meet: the message states the error that it reaches.
 [[nodiscard]] CrowdClip compile(const Clip& clip, const Hierarchy& nodes, const CrowdSettings& settings = {});
 
 }  // namespace tweenfall

@@ -2,8 +2,8 @@
 
 /// Poses of a crowd: eight joints side by side, in float.
 ///
-/// A pose is a list of groups. Joint `j` is lane `j % 8` of group `j / 8`; lanes after the last joint are there, and
-/// mean nothing. What is written here at once for eight joints is what processors are quick at.
+/// A pose is a list of groups. Joint `j` is lane `j % 8` of group `j / 8`; lanes after the last joint exist, but are
+/// meaningless. The layout suits the vector instructions of processors.
 
 #include <cstddef>
 #include <span>
@@ -18,14 +18,14 @@ struct alignas(32) CrowdGroup {
   float scale[3][size];
 };
 
-/// How fast these move.
+/// The rates of a group.
 struct alignas(32) CrowdRates {
   float linear[3][CrowdGroup::size];   ///< m/s
   float angular[3][CrowdGroup::size];  ///< rad/s, in the axes of the parent
   float scale[3][CrowdGroup::size];    ///< 1/s
 };
 
-/// How many groups hold a number of joints.
+/// The number of groups needed for a number of joints.
 [[nodiscard]] constexpr std::size_t crowd_groups(std::size_t joints) noexcept {
   return (joints + CrowdGroup::size - 1) / CrowdGroup::size;
 }

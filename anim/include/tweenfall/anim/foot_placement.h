@@ -1,9 +1,10 @@
 #pragma once
 
-/// Feet on uneven ground: what walks over a flat floor by its script stands on slopes, stairs and stones.
+/// Feet on uneven ground: a figure scripted to walk on a flat floor stands on slopes, stairs and stones.
 ///
-/// The script's feet keep their height above the script's floor, and get it above the ground: the pelvis goes to where
-/// the lowest foot reaches, each leg bends, and each foot lies along the ground's normal. Who asks brings the ground.
+/// The height of each foot above the script's floor becomes its height above the ground: the pelvis moves so that the
+/// lowest foot can reach, each leg bends, and each foot is aligned with the ground's normal. The caller provides the
+/// ground.
 
 #include <tweenfall/anim/two_bone.h>
 
@@ -15,29 +16,29 @@ namespace tweenfall {
 /// The ground below or above a place.
 struct Ground {
   double height = 0;          ///< along up, m
-  Vec3 normal{0, 1, 0};       ///< any length; leaning over more than 84 degrees it counts as no ground
-  double height_rate = 0;     ///< how fast it rises itself, at a still place, m/s
-  Vec3 normal_rate{0, 0, 0};  ///< of the normal below the place that was asked for as it moves, 1/s
+  Vec3 normal{0, 1, 0};       ///< any length; if it leans more than 84 degrees from up, it counts as no ground
+  double height_rate = 0;     ///< how fast the ground itself rises at a fixed place, m/s
+  Vec3 normal_rate{0, 0, 0};  ///< of the normal below the queried place as that moves, 1/s
 };
 
-/// The ground at a place that moves; nothing where there is none. It must not throw.
+/// The ground at a moving place; empty where there is none. It must not throw.
 using GroundAt = std::function<std::optional<Ground>(const Sample<Vec3>& place)>;
 
 struct FootSettings {
-  TwoBoneSettings leg;  ///< its end is the foot
-  std::optional<double> ankle_height =
-      std::nullopt;  ///< of the foot's joint above its sole, m; left out, above 0 at rest
+  TwoBoneSettings leg;                                ///< its end is the foot
+  std::optional<double> ankle_height = std::nullopt;  ///< of the foot joint above its sole, m; absent: above 0 at rest
 };
 
 struct FootPlacementSettings {
   NodeRef pelvis;                  ///< all legs are below it; it is moved
   std::vector<FootSettings> feet;  ///< at least one
   Vec3 up{0, 1, 0};                ///< in the world; any length
-  double lowest = 0.5;             ///< by how far the pelvis goes down at most, m
-  double highest = 0.5;            ///< and up
-  double evenness = 0;             ///< over which the pelvis turns from one foot to another as the lowest, m; 0 sharply
-  double tilt = 0.8;               ///< of the feet at most, rad
-  double softness = 0;             ///< of the legs, as of a `TwoBoneGoal`
+  double lowest = 0.5;             ///< how far the pelvis may go down, m
+  double highest = 0.5;            ///< how far it may go up, m
+  double evenness = 0;             ///< distance over which one foot takes over from another as the lowest, m; 0:
+                                   ///< abruptly
+  double tilt = 0.8;               ///< greatest tilt of the feet, rad
+  double softness = 0;             ///< of the legs, as in `TwoBoneGoal`
 };
 
 class FootPlacement {
@@ -71,11 +72,11 @@ class FootPlacement {
 
 inline constexpr std::size_t most_feet_placed = 8;
 
-/// Puts the feet on the ground. @throws nothing, and allocates nothing; at most `most_feet_placed` feet are placed
+/// Puts the feet on the ground. Throws and allocates nothing; places at most `most_feet_placed` feet.
 ///
 /// @param floor    height along up of the floor that the script walks on, m
 /// @param weight   0 leaves the pose as it is, bit for bit; 1 places
-/// @param weights  one per foot, of how much it belongs on the ground; or empty for all 1
+/// @param weights  one per foot: how much it belongs on the ground; or empty for all 1
 /// @param pose     local motions of all nodes; those of pelvis, legs and feet are changed
 void place_feet(const FootPlacement& placement, const GroundAt& ground, const Sample<double>& floor,
                 const Sample<double>& weight, std::span<const Sample<double>> weights, std::span<Motion> pose) noexcept;

@@ -1,11 +1,11 @@
 #pragma once
 
-/// A graph of poses: what a character shows, made from clips by operations that name each other, and by machines that
-/// pass from one pose to another as parameters and events say.
+/// A graph of poses: it makes the pose of a character from clips, by operations that refer to each other by name, and
+/// by state machines that pass from one pose to another as parameters and events say.
 ///
-/// `GraphDescription` is plain values, as a document says them or a program fills them in; `Graph` is the same made
-/// fast, held against nodes and clips once. Neither has a state: what happened is a log (`graph_player.h`), from which
-/// the pose at any time follows, value and rate.
+/// `GraphDescription` consists of plain values, read from a document or filled in by a program; `Graph` is its fast
+/// form, bound to nodes and clips once. Neither has state: what happened is kept in a log (`graph_player.h`), which
+/// determines the pose at any time, value and rate.
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/graph_figure.h>
@@ -28,24 +28,27 @@
 
 namespace tweenfall {
 
-/// A parameter: a number that comes from outside. Conditions look at what was set; poses see what follows it.
+/// A parameter: a number that comes from outside. Conditions test the value set; poses see a value that follows it by
+/// `half_life`.
 struct GraphParameter {
   std::string name;
-  double start = 0;                      ///< until it is set
-  double half_life = 0;                  ///< s; in which poses come half way to a value that was set; 0: at once
-  std::optional<Curve<double>> curve{};  ///< its value over the graph's time; nobody then sets it
+  double start = 0;                      ///< its value until it is set
+  double half_life = 0;                  ///< s in which poses come half way to a newly set value; 0: at once
+  std::optional<Curve<double>> curve{};  ///< its value over the graph's time; then it cannot be set
 };
 
-/// A track of the user's as a parameter's curve: from the graph's start on as its clip plays it, loops included.
-/// @param track  "node.property", of numbers, or a switch, whose on is 1
+/// A user track as the curve of a parameter: as its clip plays it from the graph's start on, loops included.
+/// @param track "node.property", of numbers, or a switch, which counts as 0 or 1
 /// @param clip   empty: the only one that has the track
-/// @throws std::invalid_argument for a track or clip that is not there, with the nearest, or of another kind
+/// @throws std::invalid_argument for a track or clip that does not exist, with the nearest name, or a track of another
+///         kind
 [[nodiscard]] Curve<double> track_curve(std::span<const Clip> clips, std::string_view track,
                                         std::string_view clip = {});
 
-// The operations. Where one asks for a pose, it is told the name of another of the graph, or of a clip.
+// The operations. Poses are given by name: that of another pose of the graph, or of a clip.
 
-/// A clip, from when the state that shows it was entered, or the graph began. What it does not drive is as below.
+/// A clip, played from the time at which the state that shows it was entered, or at which the graph began. Nodes that
+/// it does not drive are as below the graph.
 struct ClipPose {
   std::string clip;
   double at = 0;               ///< seconds until it starts
@@ -53,11 +56,11 @@ struct ClipPose {
   std::optional<Loop> loop{};  ///< absent: the clip's own
 };
 
-/// What lies below the graph: the plays, and where they do nothing the nodes at rest.
+/// The pose below the graph: that of the plays, and where they drive nothing the rest pose of the nodes.
 struct RestPose {};
 
-/// Several poses at once, by weights of which only the ratios matter, as `blend` mixes them: where they sum to less
-/// than `least_weight`, what lies below the graph shows through.
+/// Several poses mixed by weights of which only the ratios matter, as by `blend`: where they sum to less than
+/// `least_weight`, the pose below the graph shows through.
 struct BlendPose {
   struct Part {
     std::string pose;
@@ -70,26 +73,26 @@ struct BlendPose {
 struct LayersPose {
   struct Layer {
     std::string pose;
-    bool adds = false;                ///< adds its difference to `reference` to what it lies on; else replaces that
-    std::string reference = {};       ///< a pose; empty: what lies below the graph
-    GraphNumber weight = 1.0;         ///< 0 to 1; what is beyond is taken as the nearer end
+    bool adds = false;                ///< adds its difference from `reference` to the pose below; else replaces that
+    std::string reference = {};       ///< a pose; empty: the pose below the graph
+    GraphNumber weight = 1.0;         ///< 0 to 1; values beyond are clamped
     std::vector<MaskPart> mask = {};  ///< none: all nodes
   };
-  std::string base;  ///< empty: what lies below the graph
+  std::string base;  ///< empty: the pose below the graph
   std::vector<Layer> layers;
 };
 
-/// Poses at places along a line or on a plane, weighed by where one or two numbers are among them, as `BlendLine` and
-/// `BlendPlane`, or `BlendBands`, do it.
+/// Poses at places along a line or on a plane, weighted by the position of one or two numbers among them, as by
+/// `BlendLine`, `BlendPlane` or `BlendBands`.
 struct SpacePose {
   struct Entry {
     std::string pose;
-    Vec2 place{0, 0};  ///< along a line x alone
+    Vec2 place{0, 0};  ///< along a line only x
   };
   std::vector<GraphNumber> by;  ///< one or two
   std::vector<Entry> entries;   ///< `most_blended` at most
-  /// For clips alone, which then loop in phase, as `MarkerSync` has it: a pattern of the events that are markers. None
-  /// with these names: by the shares of their loops that lie behind.
+  /// If all entries are clips, makes them loop in phase, as by `MarkerSync`: a pattern for the events that are markers.
+  /// Without any such event: in phase by the shares of their loops.
   std::optional<std::string> sync{};
   bool bands = false;  ///< on a plane: weights by gradient bands, not by triangles
 };
@@ -109,29 +112,29 @@ struct GraphCondition {
   double value = 0;
 };
 
-/// How one state becomes another. Fades and settles may be interrupted at any time: what is shown goes on without a
-/// jump in place or velocity, but for a cut and for eases that begin with a jerk.
+/// How one state becomes another. Fades and settles may be interrupted at any time: the pose continues without a jump
+/// in position or velocity, except for a cut and for eases that start abruptly.
 struct GraphChange {
   enum class Kind {
     fade,        ///< both run, one fading into the other over `seconds`; 0: a cut
-    quintic,     ///< the old one stops; the difference dies away within `seconds`, as `QuinticDecay`
-    half_life,   ///< ... as `SpringDecay`, half of it gone after `seconds` from rest
-    dead_blend,  ///< the old one goes straight on while it fades into the new one
+    quintic,     ///< the old one stops; the difference decays within `seconds`, as `QuinticDecay`
+    half_life,   ///< ... as `SpringDecay`, with half of it left after `seconds` from rest
+    dead_blend,  ///< the old one continues at its last velocity while it fades into the new one
   };
   Kind kind = Kind::fade;
   double seconds = 0.2;
-  std::optional<Ease> ease{};  ///< of a fade, a shape; none: smooth, starting and ending without a jerk
+  std::optional<Ease> ease{};  ///< for a fade, a shape; none: one that starts and ends smoothly
 };
 
 struct GraphTransition {
   std::vector<std::string> from{};  ///< states; none: any but `to`
   std::string to;
-  std::vector<GraphCondition> when{};  ///< all of them; none: at once
+  std::vector<GraphCondition> when{};  ///< all must hold; none: at once
   GraphChange change = {};
 };
 
-/// States, one of which shows at a time, and how one becomes another. Every machine runs from the graph's start,
-/// whether it is shown or not.
+/// A state machine: states, one of which shows at a time, and the transitions between them. Every machine runs from the
+/// graph's start, whether it is shown or not.
 struct MachinePose {
   struct State {
     std::string name;
@@ -139,10 +142,10 @@ struct MachinePose {
   };
   std::string start;  ///< a state
   std::vector<State> states;
-  std::vector<GraphTransition> transitions;  ///< the first that may be taken is
+  std::vector<GraphTransition> transitions;  ///< the first whose conditions hold is taken
 };
 
-/// Those that change a pose, which is the one that they name as their `base`, stand in headers of their own.
+/// Operations that change one pose, which they name as their `base`, are in headers of their own.
 using PoseOperation =
     std::variant<ClipPose, RestPose, BlendPose, LayersPose, SpacePose, MachinePose, TwoBonePose, LookAtPose, ReachPose,
                  FeetPose, MirrorPose, RetargetPose, RootMotionPose, SpringPose, JigglePose>;
@@ -152,7 +155,7 @@ struct GraphPose {
   PoseOperation operation;
 };
 
-/// What comes from outside: a parameter is set, or, without a value, an event is sent.
+/// An input from outside: a parameter is set or, without a value, an event is sent.
 struct GraphInput {
   double time = 0;  ///< s, since the graph began
   std::string name;
@@ -161,8 +164,9 @@ struct GraphInput {
   bool operator==(const GraphInput&) const = default;
 };
 
-/// What an event of a clip does, whether the clip shows in the graph or lies below it: it sets a parameter or, without
-/// a value, sends another event, at its exact instant. However often it happens at one instant, it does so once.
+/// A reaction to an event of a clip, whether the clip shows in the graph or lies below it: sets a parameter or, without
+/// a value, sends another event, at its exact instant. However often the event happens at one instant, the reaction
+/// happens once.
 struct GraphReaction {
   std::string event;
   std::string name;
@@ -176,11 +180,11 @@ struct GraphDescription {
   std::vector<GraphParameter> parameters;
   std::vector<GraphPose> poses;
   std::string output;                   ///< the pose that shows; empty: the last
-  std::vector<GraphInput> inputs = {};  ///< those that are known beforehand
+  std::vector<GraphInput> inputs = {};  ///< the inputs known in advance
   std::vector<GraphReaction> reactions = {};
 };
 
-/// A pose or clip that an operation names, and for what, in a word or two.
+/// A pose or clip that an operation names, and its role, in a word or two.
 struct GraphOperand {
   std::string pose;
   std::string role;
@@ -188,35 +192,36 @@ struct GraphOperand {
 };
 [[nodiscard]] std::vector<GraphOperand> operands_of(const PoseOperation& operation);
 
-/// All names by which poses mean clips, each once.
+/// All names of clips used as poses, each once.
 [[nodiscard]] std::vector<std::string> clips_named_in(const GraphDescription& description);
 
 /// The events for which its machines wait, each once.
 [[nodiscard]] std::vector<std::string> events_awaited(const GraphDescription& description);
 
-/// For tools: `speed > 0.1 and event "jump"`, "at once"; "fade 0.2 s", "settle quintic 0.3 s", "cut"; "machine".
+/// Texts for tools: `speed > 0.1 and event "jump"`, "at once"; "fade 0.2 s", "settle quintic 0.3 s", "cut"; "machine".
 [[nodiscard]] std::string words_of(std::span<const GraphCondition> when);
 [[nodiscard]] std::string words_of(const GraphChange& change);
 [[nodiscard]] std::string words_of(const PoseOperation& operation);
 
-/// A number that changes with anything that the description says.
+/// A number that changes with any part of the description.
 [[nodiscard]] std::uint64_t fingerprint(const GraphDescription& description) noexcept;
 
-/// Something for which a description makes no graph.
+/// A reason why no graph can be made from a description.
 struct GraphFault {
   std::vector<std::string> place;  ///< "poses", "body", "machine", "transitions", "2", ...: names, and numbers from 0
   std::string message;
 };
 
-/// Holds a description against nodes and clips. @returns all that is wrong, by place; nothing where `Graph` takes it
+/// Checks a description against nodes and clips. @returns all faults with their places; empty where `Graph` accepts it
 [[nodiscard]] std::vector<GraphFault> inspect(const GraphDescription& description, const Hierarchy& nodes,
                                               std::span<const Clip> clips);
 
-/// No more than this many transitions of a machine are taken at one instant; then it stays where it is until the next,
-/// which is told (`GraphPlayer::stops`).
+/// No more than this many transitions of a machine are taken at one instant; then it stays where it is until the next
+/// instant, which is reported (`GraphPlayer::stops`).
 inline constexpr std::size_t most_transitions_at_once = 32;
 
-/// No more than this many poses of a machine fade into each other; the change after that settles, over the same time.
+/// No more than this many poses of a machine fade into each other; a further change settles instead, over the same
+/// time.
 inline constexpr std::size_t most_fades_at_once = 8;
 
 inline constexpr std::size_t most_blended = 32;

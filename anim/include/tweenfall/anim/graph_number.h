@@ -1,6 +1,6 @@
 #pragma once
 
-/// Numbers and places that the operations of a graph are told.
+/// Numbers and places given to the operations of a graph.
 
 #include <tweenfall/curves/curve.h>
 
@@ -16,9 +16,9 @@ struct ByParameter {
 };
 using GraphNumber = std::variant<double, Curve<double>, ByParameter>;
 
-/// A place: fixed, keyed, by three parameters, or at a node, wherever that goes.
+/// A place: fixed, keyed, given by three parameters, or attached to a node.
 struct GraphPlace {
-  std::string node{};                         ///< in whose space it is told; empty: in the world
+  std::string node{};                         ///< the node in whose space `at` is given; empty: the world
   std::array<GraphNumber, 3> at{0., 0., 0.};  ///< m
 };
 

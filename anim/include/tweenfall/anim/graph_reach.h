@@ -1,10 +1,10 @@
 #pragma once
 
-/// Operations of a graph that turn joints until something is where it is wanted.
+/// Operations of a graph that turn joints to reach a goal.
 ///
-/// Each changes the pose that it names as its `base` (none: what lies below the graph) by a weight: 0 leaves the base
-/// bit for bit, 1 reaches. Places are those of the graph's own nodes as the base has them: a body that is simulated is
-/// where its script has it.
+/// Each changes the pose that it names as its `base` (none: the pose below the graph) by a weight: 0 leaves the base
+/// bit for bit, 1 reaches. Nodes are where the base puts them: a simulated body counts as being where its script puts
+/// it.
 
 #include <tweenfall/anim/graph_number.h>
 #include <tweenfall/anim/height_grid.h>
@@ -22,27 +22,27 @@ struct TwoBonePose {
   std::string base{};
   std::string start, middle, end;    ///< nodes, each below the one before
   GraphPlace target = {};            ///< where the end goes
-  std::optional<GraphPlace> pole{};  ///< to which the middle points; absent: the side on which the pose has it
+  std::optional<GraphPlace> pole{};  ///< to which the middle points; absent: the side on which it is in the pose
   std::optional<Vec3> axis{};        ///< about which the middle bends, in the start's space; absent: as the rest pose
   double softness = 0;               ///< 0 to 0.5, as in `TwoBoneGoal`
-  GraphNumber weight = 1.0;          ///< 0 to 1; what is beyond is taken as the nearer end
+  GraphNumber weight = 1.0;          ///< 0 to 1; values beyond are clamped
 };
 
 /// Joints that share the turning until the last of them looks at a target, as `LookAtChain`.
 struct LookAtPose {
   struct Joint {
     std::string node;
-    double share = 1;  ///< of the turning that is still missing when its turn comes, 0 to 1
+    double share = 1;  ///< of the turning that the joints before it left over, 0 to 1
   };
   std::string base{};
   std::vector<Joint> joints;  ///< from the one nearest to the root to the one that looks
   GraphPlace target = {};
   Vec3 forward{0, 0, 1};            ///< where the last joint looks, in its own space
-  Vec3 up{0, 1, 0};                 ///< what is up for it, where it is to stay upright
-  std::optional<Vec3> upright{};    ///< direction of the world that is to be up; absent: it turns the shortest way
+  Vec3 up{0, 1, 0};                 ///< the direction in its own space that is kept `upright`
+  std::optional<Vec3> upright{};    ///< world direction for `up`; absent: it turns the shortest way
   Vec3 eye{0, 0, 0};                ///< from where it looks, in its own space, m
   double limit = std::numbers::pi;  ///< of the turning, rad
-  double ease = 0.2;                ///< over which it comes to a halt before the limit, rad
+  double ease = 0.2;                ///< range over which it slows down before the limit, rad
   GraphNumber weight = 1.0;
 };
 
@@ -57,7 +57,7 @@ struct ReachPose {
   GraphPlace target = {};
   ChainMethod method = ChainMethod::fabrik;
   int sweeps = 8;
-  bool leaps = false;  ///< to what a chain with limits does not reach otherwise
+  bool leaps = false;  ///< jump to targets that a chain with limits does not reach otherwise
   GraphNumber weight = 1.0;
 };
 

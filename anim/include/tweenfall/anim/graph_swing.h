@@ -1,14 +1,14 @@
 #pragma once
 
-/// Operations of a graph that lag behind, overshoot and swing out.
+/// Operations of a graph that lag behind, overshoot and come to rest.
 ///
-/// Each changes the pose that it names as its `base` (none: what lies below the graph) by a weight: 0 leaves the base
-/// bit for bit, 1 shows the springs, which go on whatever the weight is. They start at rest with the graph, or with the
-/// state that shows them, and follow from the log alone: the same bits whatever the frames. At every instant at which
-/// something comes in or a machine passes to another state their clock starts anew, their place and velocity in the
-/// world going on; between instants they see nothing of what is to come. Where a graph lies over another, only its own
-/// instants are known to it, for what it shows follows from its own log, which is saved and played back by itself: what
-/// jumps in the other is a quick movement to these springs.
+/// Each changes the pose that it names as its `base` (none: the pose below the graph) by a weight: 0 leaves the base
+/// bit for bit, 1 shows the springs, which keep moving whatever the weight is. They start at rest with the graph, or
+/// with the state that shows them, and are determined by the log alone: the same bits whatever the frames. At every
+/// input, and whenever a machine passes to another state, their clock restarts, while their position and velocity in
+/// the world continue; so they do not see ahead beyond such an instant. Where a graph lies over another, only its own
+/// instants count, because its pose is determined by its own log, which is saved and played back by itself: a jump in
+/// the other graph is just a quick movement to these springs.
 
 #include <tweenfall/anim/graph_number.h>
 #include <tweenfall/anim/spring.h>
@@ -20,16 +20,16 @@
 
 namespace tweenfall {
 
-/// A node whose place, rotation or both follow the base by springs, as `NodeSpring`.
+/// A node whose position, rotation or both follow the base by springs, as `NodeSpring`.
 struct SpringPose {
   std::string base{};
   std::string node;
-  std::optional<SpringSettings> position{};  ///< of its place in the world
+  std::optional<SpringSettings> position{};  ///< of its position in the world
   std::optional<SpringSettings> rotation{};  ///< of its rotation in the world
   GraphNumber weight = 1.0;
 };
 
-/// A chain of joints that swings after what carries it, as `JiggleChain`.
+/// A chain of joints that swings behind the node that carries it, as `JiggleChain`.
 struct JigglePose {
   std::string base{};
   std::vector<std::string> joints;  ///< from the one nearest to the root on

@@ -1,11 +1,11 @@
 #pragma once
 
-/// Nodes in a tree, and the way from local motions to world motions.
+/// Nodes in a tree, and the conversion from local motions to world motions.
 ///
 /// Every node has a rest pose relative to its parent. Given a local motion for each node,
 /// `world_motions` returns where each is in the world and its exact twist, through any chain
-/// of parents, moving, turning and scaling; `world_frames` where its points are and how fast they move,
-/// which is all that drawing asks for and takes half the time.
+/// of parents, moving, turning and scaling; `world_frames` where its points are and how fast they move, which is enough
+/// for drawing and takes half the time.
 
 #include <tweenfall/curves/pose.h>
 
@@ -25,11 +25,11 @@ struct Node {
   std::string name;
   std::size_t parent = no_node;   ///< index in the hierarchy, less than the node's own; `no_node` for a root
   Pose rest = {};                 ///< relative to the parent
-  std::optional<Color> color{};   ///< shown where no clip colors the node; what a clip's color fades from
-  std::vector<double> weights{};  ///< the same of its mesh's morph weights
+  std::optional<Color> color{};   ///< shown where no clip colors the node; a clip's color fades from it
+  std::vector<double> weights{};  ///< likewise for the morph weights of its mesh
 };
 
-/// A node's place in the world.
+/// A node's transform in the world, with its rates.
 struct WorldMotion {
   Mat3 linear = Mat3::Identity();   ///< rotation and scale of the whole chain, shear included
   Mat3 linear_rate = Mat3::Zero();  ///< 1/s
@@ -56,8 +56,8 @@ struct WorldFrame {
 /// World motion of a child from its parent's and its own local motion.
 [[nodiscard]] WorldMotion child_of(const WorldMotion& parent, const Motion& local) noexcept;
 
-/// Copies share their nodes: to copy a hierarchy and to add to the copy takes no longer for more nodes, and leaves the
-/// other as it was.
+/// Copies share their nodes: copying a hierarchy and adding to the copy takes the same time for any number of nodes,
+/// and leaves the original as it was.
 class Hierarchy {
  public:
   Hierarchy() = default;
@@ -73,7 +73,7 @@ class Hierarchy {
   /// Appends a node below an existing parent. @returns its index. @throws as the constructor.
   std::size_t add(Node node);
 
-  /// The same for a node whose name an earlier one may have: `find` gives the latest of that name.
+  /// The same for a node whose name an earlier one may have: `find` returns the latest of that name.
   std::size_t add_again(Node node);
 
   [[nodiscard]] std::size_t size() const noexcept { return nodes_.size(); }
@@ -84,10 +84,10 @@ class Hierarchy {
   /// World motion of every node. @param local  one per node, in order  @param world  written, same size
   void world_motions(std::span<const Motion> local, std::span<WorldMotion> world) const noexcept;
 
-  /// The points of every node: the same bits as in the motions. @param world  written, one per node, in order
+  /// The frame of every node: the same bits as in the world motions. @param world  written, one per node, in order
   void world_frames(std::span<const Motion> local, std::span<WorldFrame> world) const noexcept;
 
-  /// World motion of one node alone, walking its chain of parents; the same bits as `world_motions` gives.
+  /// World motion of a single node by walking its chain of parents; the same bits as from `world_motions`.
   /// @param local_of  called with the index of each node of the chain, root first; returns its local Motion
   template <class LocalOf>
   [[nodiscard]] WorldMotion world_motion(std::size_t index, LocalOf&& local_of) const {
@@ -108,11 +108,12 @@ class Hierarchy {
   }
 
  private:
-  struct Room;                               ///< for more nodes than one hierarchy sees
+  struct Room;                               ///< storage that may hold more nodes than one hierarchy uses
   using Names = std::vector<std::uint32_t>;  ///< nodes in order of their names
   std::shared_ptr<Room> room_;
-  std::span<const Node> nodes_;                     ///< those of the room that are its own, from the first on
-  std::vector<std::shared_ptr<const Names>> runs_;  ///< of all nodes, the latest last; each longer than the next
+  std::span<const Node> nodes_;                     ///< the first nodes of the room, which are its own
+  std::vector<std::shared_ptr<const Names>> runs_;  ///< together all nodes, the latest last; each run is longer than
+                                                    ///< the next
 };
 
 }  // namespace tweenfall

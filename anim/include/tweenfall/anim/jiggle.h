@@ -1,10 +1,10 @@
 #pragma once
 
-/// Chains of joints that swing after what carries them: tails, hair, ropes, antennas, loose flesh.
+/// Chains of joints that swing behind the node that carries them: tails, hair, ropes, antennas, soft tissue.
 ///
-/// Each joint's tail, which is the next joint, is drawn to where the script has it by a spring, is pulled by gravity,
-/// and stays at its distance. What swings is seen by the joints after it. Like springs, chains go by a grid of absolute
-/// time, so that the same movement comes out to the bit at every frame rate, with exact rates.
+/// Each joint's tail, which is the next joint, is drawn by a spring to its place in the script, is pulled by gravity,
+/// and stays at its distance. The joints after it follow its swing. Like springs, chains use a grid of absolute time,
+/// so that the movement is the same to the bit at every frame rate, with exact rates.
 
 #include <tweenfall/anim/node_spring.h>
 
@@ -16,12 +16,12 @@ struct JiggleSettings {
   /// From the one nearest to the root on, each below the one before. The last is only a tail, unless it has a `tip`.
   std::vector<NodeRef> joints;
   Vec3 tip{0, 0, 0};                ///< tail of the last joint, in its own space, m; zero for none
-  SpringSettings spring = {};       ///< of each joint's tail; hz 0 leaves it to gravity alone
+  SpringSettings spring = {};       ///< of each joint's tail; with hz 0 only gravity acts
   double limit = std::numbers::pi;  ///< of the angle by which a joint swings away from the script, rad; 0 to pi
-  double ease = 0.2;                ///< over which it comes to a halt before the limit, rad; >= 0
+  double ease = 0.2;                ///< range over which it slows down before the limit, rad; >= 0
 };
 
-/// Where the tails are at a point of the grid, seen from where the script has them.
+/// The offsets of the tails from their places in the script, at a point of the grid.
 struct JiggleState {
   std::int64_t step = 0;
   std::vector<Vec3> offsets;  ///< one per swinging joint, world axes, m
@@ -29,15 +29,14 @@ struct JiggleState {
 
   bool operator==(const JiggleState&) const = default;
   [[nodiscard]] std::vector<std::byte> bytes() const;
-  /// @throws std::invalid_argument for bytes that are no such state
+  /// @throws std::invalid_argument for bytes that are not such a state
   [[nodiscard]] static JiggleState from_bytes(std::span<const std::byte> bytes);
 };
 
 class JiggleChain {
  public:
-  /// @throws std::invalid_argument listing what is wrong: a chain of one joint without a tip, nodes that do not exist
-  /// or
-  ///         do not stand below each other, settings out of range
+  /// @throws std::invalid_argument listing what is wrong: a chain of one joint without a tip, nodes that do not exist,
+  ///         or are not each below the one before, settings out of range
   JiggleChain(const Hierarchy& nodes, const JiggleSettings& settings);
 
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }
@@ -48,9 +47,9 @@ class JiggleChain {
   [[nodiscard]] double limit() const noexcept { return limit_; }
   [[nodiscard]] double ease() const noexcept { return ease_; }
 
-  /// As the script has it. @param time  s, any finite
+  /// At the script's pose. @param time s, any finite
   [[nodiscard]] JiggleState at_rest(double time) const;
-  /// Motions that `jiggle` needs for its own use.
+  /// Number of motions that `jiggle` needs as scratch space.
   [[nodiscard]] std::size_t scratch_size() const noexcept { return 2 * nodes_.size(); }
 
  private:
@@ -62,18 +61,18 @@ class JiggleChain {
   double limit_, ease_;
 };
 
-/// Brings the state to the last point of the grid up to `time` and the joints to where they are at `time`. A state of
-/// another number of joints, of a later time, or more than four million steps old starts anew at rest.
+/// Advances the state to the last point of the grid up to `time`, and sets the joints to where they are at `time`. A
+/// state for another number of joints, of a later time, or more than four million steps old is reset to rest.
 ///
 /// @param pose_at  the script
-/// @param weight   0 leaves the pose's bits as they are (the chain goes on swinging), 1 shows it
+/// @param weight   0 leaves the pose's bits as they are (the chain keeps swinging), 1 shows the chain
 /// @param scratch  `scratch_size()` motions
 /// @param pose     what the script gives for `time`; the rotations of the joints in it are changed
 void jiggle(const JiggleChain& chain, JiggleState& state, double time, const PoseAt& pose_at,
             const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) noexcept;
 
-/// The same chain at `time`, on a clock that begins anew there: its tails go on from where they are, with their
-/// velocities, whatever the script does at that time. The state becomes that at 0 s of the new clock.
+/// Restarts the chain's clock at `time`: its tails continue from where they are, with their velocities, whatever the
+/// script does at that time. The state becomes that at 0 s of the new clock.
 ///
 /// @param before, after  what the script gives for `time`, as it arrives and as it leaves
 void begin_anew(const JiggleChain& chain, JiggleState& state, double time, const PoseAt& pose_at,

@@ -1,22 +1,22 @@
 #pragma once
 
-/// Chains of any number of joints whose end reaches for a target: FABRIK and CCD, with limits of the joints.
+/// Chains of any number of joints whose end reaches for a target: FABRIK and CCD, with joint limits.
 ///
-/// Nothing is drawn at random and nothing kept from one solve to the next: the answer is a function of the pose and the
-/// target, and its rates are the derivatives of what is computed.
+/// Nothing is random and nothing is kept from one solve to the next: the result is a function of the pose and the
+/// target, and its rates are the exact derivatives of that function.
 ///
-/// Without limits, sweeps by the method give the shape and least squares bring the end to the target, to rounding. All
-/// that lies within reach is reached, and close targets have close answers.
+/// Without limits, sweeps by the method give the shape and least squares bring the end to the target, to rounding.
+/// Every target within reach is reached, and close targets have close results.
 ///
-/// With limits, the target goes from the end to its place in as many parts as there are sweeps, and the joints follow
-/// it within their limits by least squares; the method tells which of them turn the most. The farther the target is,
-/// the more they begin from the middle of their limits. Close targets have close answers here too. What limits allow
-/// may lie on branches between which no way leads, as for an elbow that bends to one side or the other: then no rule
-/// whatsoever both reaches all of it and never leaps. The chain reaches what lies on the branch on which it begins: in
-/// random chains of sockets next to all that can be reached, of hinges and sockets 99 in 100 targets, of hinges about
-/// odd axes 95. It comes as near to the others as it does on that branch. With `leaps` it looks for these elsewhere,
-/// from places spread evenly within the limits; then it leaps where a branch ends, and what nothing reaches takes up to
-/// thirteen times as long.
+/// With limits, the target moves from the end of the chain to its place in as many steps as there are sweeps, and the
+/// joints follow it within their limits by least squares; the method determines which of them turn the most. The
+/// farther the target is, the more they start from the middle of their limits. Close targets have close results here
+/// too. The poses that limits allow may form separate branches, as for an elbow that can bend to one side or the other:
+/// then no rule can both reach all targets and never jump. The chain reaches the targets on the branch on which it
+/// begins: for random chains of sockets almost all that can be reached, of hinges and sockets 99 in 100, of hinges
+/// about arbitrary axes 95 in 100. For the others it comes as near as it can on that branch. With `leaps` it also
+/// searches elsewhere, from poses spread evenly within the limits; then it jumps where a branch ends, and a target that
+/// cannot be reached takes up to thirteen times as long.
 
 #include <tweenfall/anim/node_ref.h>
 
@@ -27,13 +27,13 @@
 
 namespace tweenfall {
 
-/// Turns about one axis alone, from the rest pose.
+/// Turns about one axis only, from the rest pose.
 struct HingeLimit {
   Vec3 axis{1, 0, 0};                                       ///< in the joint's own space; any length
   double low = -std::numbers::pi, high = std::numbers::pi;  ///< rad, counted from the rest pose; -pi to pi
 };
 
-/// Swings its bone within a cone about where it is at rest, and twists about it.
+/// Swings its bone within a cone about its direction at rest, and twists about it.
 struct ConeLimit {
   double swing = std::numbers::pi / 2;                                  ///< half the opening of the cone, rad; 0 to 3.1
   double twist_low = -std::numbers::pi, twist_high = std::numbers::pi;  ///< rad; -pi to pi
@@ -55,7 +55,7 @@ struct JointChainSettings {
   std::vector<ChainLink> links;  ///< from the one nearest to the root to the end, which is carried; 2 to 65
   ChainMethod method = ChainMethod::fabrik;
   int sweeps = 8;      ///< 0 to 1000
-  bool leaps = false;  ///< whether a chain with limits may leap to reach what it does not reach otherwise
+  bool leaps = false;  ///< whether a chain with limits may jump to targets that it does not reach otherwise
 };
 
 class JointChain {
@@ -67,12 +67,12 @@ class JointChain {
     std::size_t node = no_node;
     JointLimit limit;       ///< axes of unit length
     Quat rest{1, 0, 0, 0};  ///< the node's rest rotation
-    Vec3 bone{0, 1, 0};     ///< where the next joint is at rest, in the joint's own space; unit
-    bool has_bone = false;  ///< whether the next joint is elsewhere at rest
+    Vec3 bone{0, 1, 0};     ///< direction to the next joint at rest, in the joint's own space; unit
+    bool has_bone = false;  ///< whether the next joint is at another place at rest
   };
 
   /// @throws std::invalid_argument listing what is wrong: a chain of one joint, too many, nodes that do not exist or do
-  ///         not stand below each other, limits out of range or on the end, a cone where there is no bone
+  ///         not stand below each other, limits out of range or on the end, a cone without a bone
   JointChain(const Hierarchy& nodes, const JointChainSettings& settings);
 
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }
@@ -92,8 +92,8 @@ class JointChain {
   bool leaps_, limited_ = false;
 };
 
-/// Turns the joints so that the end is at the target, or, where bones and limits do not let it, as near as it comes.
-/// Limits hold in the answer, whatever the pose is. Exact where scales are uniform.
+/// Turns the joints so that the end is at the target or, where bones and limits do not allow that, as near as possible.
+/// The result keeps the limits, whatever the pose was. Exact where scales are uniform.
 ///
 /// @param target  place in the world, m, and its velocity
 /// @param weight  0 leaves the pose as it is and 1 reaches, bit for bit; between, each joint turns part of its way

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Which joints an operation reaches, and how far: a weight from 0 to 1 for each node of a hierarchy.
+/// Which joints an operation affects, and how much: a weight from 0 to 1 for each node of a hierarchy.
 
 #include <tweenfall/anim/hierarchy.h>
 
@@ -18,13 +18,13 @@ struct MaskPart {
   bool below = false;  ///< also for everything below them in the tree
 };
 
-/// One weight for each node of the hierarchy it was made for, in order. A mask of size 0, as a default one is, reaches
-/// every node of any hierarchy fully.
+/// One weight for each node of the hierarchy it was made for, in order. A mask of size 0, such as a default one,
+/// affects every node of any hierarchy fully.
 class JointMask {
  public:
   JointMask() = default;
 
-  /// The parts apply in order, a later one over an earlier one; `elsewhere` is the weight of nodes that none names.
+  /// The parts apply in order, a later one overriding an earlier one; `elsewhere` is the weight of all other nodes.
   /// @throws std::invalid_argument listing all problems: a name or pattern that no node has, a weight outside 0 to 1.
   JointMask(const Hierarchy& nodes, std::span<const MaskPart> parts, double elsewhere = 0);
 
@@ -41,15 +41,15 @@ class JointMask {
   std::vector<double> weights_;
 };
 
-/// Both together: the product of the weights.
-/// @throws std::invalid_argument where both have a size, and these differ.
+/// Both masks together: the product of the weights.
+/// @throws std::invalid_argument where both sizes are above 0 and differ.
 [[nodiscard]] JointMask both(const JointMask& a, const JointMask& b);
 
-/// Either of them: the larger weight. @throws as `both`.
+/// Either mask: the larger weight. @throws as `both`.
 [[nodiscard]] JointMask either(const JointMask& a, const JointMask& b);
 
-/// All that the mask leaves out: 1 - weight.
-/// @throws std::invalid_argument for a mask of size 0, whose opposite would have to know its nodes.
+/// The complement of the mask: 1 - weight.
+/// @throws std::invalid_argument for a mask of size 0, whose number of nodes is not known.
 [[nodiscard]] JointMask opposite(const JointMask& mask);
 
 }  // namespace tweenfall

@@ -1,10 +1,10 @@
 #pragma once
 
-/// A joint, or a chain of joints that share the turning, that looks at a target: heads, eyes, turrets, spines.
+/// A joint that looks at a target, or a chain of joints that share the turning: heads, eyes, turrets, spines.
 ///
-/// The last joint is the one that looks; those before it take part of the way on themselves, as a spine and a neck do.
-/// How far it turns away from what the pose itself shows may be limited; the limit is eased into, and what comes
-/// directly behind is let go of, so that nothing snaps from one side to the other.
+/// The last joint is the one that looks; those before it do part of the turning, as a spine and a neck do. How far it
+/// turns away from the pose itself may be limited; it slows down towards the limit, and releases a target that comes
+/// directly behind, so that nothing snaps from one side to the other.
 
 #include <tweenfall/anim/node_ref.h>
 
@@ -15,16 +15,16 @@ namespace tweenfall {
 
 struct LookAtJoint {
   NodeRef node;
-  double share = 1;  ///< of the turning that is still missing when its turn comes, 0 to 1
+  double share = 1;  ///< of the turning that the joints before it left over, 0 to 1
 };
 
 struct LookAtSettings {
   std::vector<LookAtJoint> joints;  ///< from the one nearest to the root to the one that looks, at least one
   Vec3 forward{0, 0, 1};            ///< where the last joint looks, in its own space; any length
-  Vec3 up{0, 1, 0};                 ///< what is up for it; used where a goal has an up too
+  Vec3 up{0, 1, 0};                 ///< the up direction in its own space; used where a goal has an up too
   Vec3 eye{0, 0, 0};                ///< from where it looks, in its own space, m
-  double limit = std::numbers::pi;  ///< between where the pose looks and where it is made to, rad; 0 to pi
-  double ease = 0.2;                ///< over which it comes to a halt before the limit, rad; >= 0
+  double limit = std::numbers::pi;  ///< angle between the pose's direction and the final one, rad; 0 to pi
+  double ease = 0.2;                ///< range over which it slows down before the limit, rad; >= 0
 };
 
 class LookAtChain {
@@ -41,7 +41,7 @@ class LookAtChain {
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }
   [[nodiscard]] std::span<const Joint> joints() const noexcept { return joints_; }
   [[nodiscard]] const Vec3& forward() const noexcept { return forward_; }  ///< unit
-  [[nodiscard]] const Vec3& up() const noexcept { return up_; }            ///< unit, across forward
+  [[nodiscard]] const Vec3& up() const noexcept { return up_; }            ///< unit, perpendicular to forward
   [[nodiscard]] const Vec3& eye() const noexcept { return eye_; }
   [[nodiscard]] double limit() const noexcept { return limit_; }
   [[nodiscard]] double ease() const noexcept { return ease_; }
@@ -55,12 +55,12 @@ class LookAtChain {
 
 struct LookAtGoal {
   Sample<Vec3> target;  ///< place in the world, m, and its velocity
-  /// Direction in the world that is to be up; left out, or along the line of sight, the joints turn the shortest way.
+  /// World direction for `up`; if absent, or along the line of sight, the joints turn the shortest way.
   std::optional<Sample<Vec3>> up = std::nullopt;
 };
 
-/// Turns the joints so that the last one, if its share is 1 and the limit lets it, looks at the target from its eye,
-/// exactly. A target in the joint itself leaves the pose as it is. Exact where scales are uniform.
+/// Turns the joints so that the last one, if its share is 1 and the limit allows it, looks at the target from its eye,
+/// exactly. A target at the joint itself leaves the pose as it is. Exact where scales are uniform.
 ///
 /// @param weight  0 leaves the pose as it is and 1 looks, bit for bit; between, each joint turns part of its way
 /// @param pose    local motions of all nodes; those of the joints are changed

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Triangle meshes that a skeleton bends and morph targets mold.
+/// Triangle meshes deformed by a skeleton and by morph targets.
 
 #include <tweenfall/anim/hierarchy.h>
 #include <tweenfall/curves/surface_mesh.h>
@@ -29,23 +29,23 @@ struct Influence {
   bool operator==(const Influence&) const = default;
 };
 
-/// The joints that pull on each vertex of a mesh: as many as the artist gave it, all of them in one list.
+/// The joints that pull on each vertex of a mesh: any number per vertex, all of them in one list.
 class Influences {
  public:
-  /// Those of the next vertex, in order.
+  /// Adds those of the next vertex.
   void add(std::span<const Influence> of_vertex);
   void add(std::initializer_list<Influence> of_vertex);
 
   [[nodiscard]] std::size_t size() const noexcept { return ends_.size(); }  ///< vertices
   [[nodiscard]] bool empty() const noexcept { return ends_.empty(); }
   [[nodiscard]] std::span<const Influence> operator[](std::size_t vertex) const noexcept;
-  [[nodiscard]] std::size_t most() const noexcept;  ///< of any vertex
+  [[nodiscard]] std::size_t most() const noexcept;  ///< the greatest number for any vertex
 
   bool operator==(const Influences&) const = default;
 
  private:
   std::vector<Influence> all_;
-  std::vector<std::size_t> ends_;  // where in the list those of each vertex end
+  std::vector<std::size_t> ends_;  // where each vertex's part of the list ends
 };
 
 struct Mesh {
@@ -63,10 +63,10 @@ struct Mesh {
   Color base_color{Vec4{0.8, 0.8, 0.8, 1}};
 };
 
-/// A swept or turned surface as a mesh to be shown.
+/// A swept or turned surface as a mesh for display.
 [[nodiscard]] Mesh mesh_of(const SurfaceMesh& surface, std::string name = {});
 
-/// Which nodes are the joints of a mesh, and where each was when the mesh was bound to it.
+/// The nodes that are the joints of a mesh, and their inverse bind matrices.
 struct Skin {
   struct InverseBind {
     Mat3 linear = Mat3::Identity();
@@ -76,7 +76,7 @@ struct Skin {
   std::vector<InverseBind> inverse_binds;  ///< one per joint
 };
 
-/// A mesh hung on a node, skinned or not.
+/// A mesh attached to a node, skinned or not.
 struct MeshInstance {
   std::size_t node = no_node;
   std::size_t mesh = 0;        ///< index of the mesh
@@ -86,7 +86,7 @@ struct MeshInstance {
 /// World positions of a mesh's vertices: morphs first, then skin or node.
 ///
 /// @param weights  one per morph target, or empty for the mesh's rest weights
-/// @param skin     null when the mesh follows `node` alone
+/// @param skin     null when the mesh follows only `node`
 /// @param world    world motion of every node
 /// @param out      written, one per vertex, m
 void deform(const Mesh& mesh, std::span<const double> weights, const Skin* skin, std::size_t node,

@@ -1,15 +1,15 @@
 #pragma once
 
-/// Mirroring whole poses: what the left side does, the right side does, and the other way about.
+/// Mirroring whole poses: the left side does what the right side does, and vice versa.
 ///
 /// Each joint does what its partner across the plane does, measured from the rest pose, in the space of the whole
-/// figure: turned by the mirror image of the turn its partner made from rest, moved by the mirror image of its way. So
-/// the joints' own axes may lie in any way, on each side another; where the rest pose is symmetrical in the figure's
-/// space the mirrored pose is the mirror image, and where it is not each side keeps its own rest pose and proportions.
-/// Scales are taken over along the axes that are each other's images; where no axes are, each along the one nearest to
-/// its image. A figure whose rest pose is bent is given a stance, a pose in which it stands evenly, to measure
-/// from. Rates are mirrored with the poses, exactly. The mirror of a mirrored pose is the pose: bit for bit where the
-/// rest pose is symmetrical in the joints' own axes, to rounding else.
+/// figure: it turns by the mirror image of its partner's turn from rest, and moves by the mirror image of its
+/// displacement. So the joints' own axes may point anywhere, and differ between the sides; where the rest pose is
+/// symmetrical in the figure's space the mirrored pose is the mirror image, and where it is not, each side keeps its
+/// own rest pose and proportions. Scales are exchanged between axes that are each other's mirror images; where there
+/// are no such axes, with the axis nearest to the image. For a figure whose rest pose is asymmetrical, a stance can be
+/// given, a symmetrical pose to measure from. Rates are mirrored with the poses, exactly. The mirror of a mirrored pose
+/// is the pose: bit for bit where the rest pose is symmetrical in the joints' own axes, to rounding else.
 
 #include <tweenfall/anim/hierarchy.h>
 
@@ -20,8 +20,8 @@
 
 namespace tweenfall {
 
-/// Two names, or two patterns of names: what `*` stands for in a name on the left it stands for on the right
-/// ("*.L" and "*.R", "Left*" and "Right*"; as many in both).
+/// Two names, or two patterns of names in which `*` stands for the same text on both sides ("*.L" and "*.R", "Left*"
+/// and "Right*"; both have the same number of `*`).
 struct MirrorPair {
   std::string left, right;
 };
@@ -31,7 +31,7 @@ struct MirrorPair {
 
 class Mirror {
  public:
-  /// A joint that no pair names is its own partner.
+  /// A joint that is in no pair is its own partner.
   /// @param normal  of the mirror plane, which goes through the origin of the figure's space; any length
   /// @param stance  local poses to measure from; empty: the rest poses
   /// @throws std::invalid_argument listing all problems: a pair that no joint matches, a joint without its partner, one
@@ -48,10 +48,11 @@ class Mirror {
  private:
   struct Joint {
     std::size_t partner = 0;
-    Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before m(R) after, of the partner's mirrored R
-    Vec3 offset{0, 0, 0};                        ///< how its place at rest differs from the mirrored one
-    std::array<int, 3> axes{0, 1, 2};            ///< of the partner, nearest to the images of its own
-    Vec3 sizes{1, 1, 1};                         ///< by which its scale is the partner's along these
+    Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before * m(R) * after, with m(R) the partner's,
+                                                 ///< mirrored
+    Vec3 offset{0, 0, 0};                        ///< its position at rest minus the mirrored one
+    std::array<int, 3> axes{0, 1, 2};            ///< the partner's axes nearest to the images of its own
+    Vec3 sizes{1, 1, 1};                         ///< ratios of its scale to the partner's along these axes
   };
   [[nodiscard]] Motion mirrored(const Joint& joint, const Motion& partner) const noexcept;
 

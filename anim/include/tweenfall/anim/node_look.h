@@ -1,6 +1,6 @@
 #pragma once
 
-/// What of a node is animated beside its motion.
+/// The animated values of a node other than its motion.
 
 #include <tweenfall/curves/values.h>
 
@@ -9,7 +9,7 @@
 
 namespace tweenfall {
 
-/// The animated values of one node at one time, beside its motion.
+/// The animated values of one node at one time.
 struct NodeLook {
   std::optional<Sample<Color>> color;
   std::vector<Sample<double>> weights;  ///< morph weights; empty when not animated

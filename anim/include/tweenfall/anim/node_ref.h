@@ -1,6 +1,6 @@
 #pragma once
 
-/// A node of a hierarchy, told by its name or by its number.
+/// A node of a hierarchy, given by its name or by its number.
 
 #include <tweenfall/anim/hierarchy.h>
 
@@ -19,7 +19,7 @@ class NodeRef {
   template <std::integral Number>
   NodeRef(Number index) : index_(static_cast<std::size_t>(index)), by_number_(true) {}
 
-  /// Its number; nothing when the hierarchy has no such node.
+  /// Its number; empty when the hierarchy has no such node.
   [[nodiscard]] std::optional<std::size_t> in(const Hierarchy& nodes) const;
 
   /// Its name or number, for messages.

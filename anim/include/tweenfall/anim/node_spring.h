@@ -1,19 +1,19 @@
 #pragma once
 
-/// A node whose place, rotation or both follow the script by springs: antennas, cameras, packs.
+/// A node whose position, rotation or both follow the script by springs: antennas, cameras, packs.
 
 #include <tweenfall/anim/node_ref.h>
 #include <tweenfall/anim/spring.h>
 
 namespace tweenfall {
 
-/// Writes the local motions of all nodes at a time, s. It is asked for times on a spring's grid, up to one step ahead.
+/// Writes the local motions of all nodes at a time, s. It is called for times on a spring's grid, up to one step ahead.
 /// It must not throw.
 using PoseAt = std::function<void(double time, std::span<Motion> pose)>;
 
 struct NodeSpringSettings {
   NodeRef node;
-  std::optional<SpringSettings> position = std::nullopt;  ///< of its place in the world
+  std::optional<SpringSettings> position = std::nullopt;  ///< of its position in the world
   std::optional<SpringSettings> rotation = std::nullopt;  ///< of its rotation in the world; gravity does not act on it
 };
 
@@ -23,7 +23,7 @@ struct NodeSpringState {
   bool operator==(const NodeSpringState&) const = default;
   /// 112 bytes, those of both springs.
   [[nodiscard]] std::vector<std::byte> bytes() const;
-  /// @throws std::invalid_argument for bytes that are no such state
+  /// @throws std::invalid_argument for bytes that are not such a state
   [[nodiscard]] static NodeSpringState from_bytes(std::span<const std::byte> bytes);
 };
 
@@ -45,18 +45,18 @@ class NodeSpring {
   std::optional<SpringFollower> position_, rotation_;
 };
 
-/// Brings the state to `time` and the node to where its springs are then. Within a step of the grid the node's way in
-/// the world is taken for the cubic that its places and velocities at both ends give.
+/// Advances the state to `time`, and moves the node to where its springs are then. Within a step of the grid the node's
+/// path in the world is approximated by the cubic through its positions and velocities at both ends.
 ///
 /// @param pose_at  the script
-/// @param weight   0 leaves the pose's bits as they are (the springs go on), 1 shows the springs
+/// @param weight   0 leaves the pose's bits as they are (the springs keep moving), 1 shows the springs
 /// @param scratch  as many motions as there are nodes
 /// @param pose     what the script gives for `time`; the node's motion in it is changed
 void follow(const NodeSpring& spring, NodeSpringState& state, double time, const PoseAt& pose_at,
             const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) noexcept;
 
-/// The same springs at `time`, on a clock that begins anew there: the place and rotation that they show, and their
-/// velocities, go on from where they are, whatever the script does at that time.
+/// Restarts the clock of the springs at `time`: the position and rotation that they show, and their velocities,
+/// continue, whatever the script does at that time.
 ///
 /// @param before, after  what the script gives for `time`, as it arrives and as it leaves
 /// @return their state at 0 s of the new clock

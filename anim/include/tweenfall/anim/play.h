@@ -2,11 +2,11 @@
 
 /// Playing: from stage time to clip time, analytically.
 ///
-/// A play has no state. Where its clock stands, how fast it runs and which events lie between two
-/// moments follow from the stage time alone, so a stage can be evaluated at any time in any order.
+/// A play has no state. The time of its clock, its speed and the events between two moments are determined by the stage
+/// time alone, so a stage can be evaluated at any time in any order.
 ///
 /// Before it starts, a play holds the first frame that it will show (where no play below drives the same), and after
-/// its end the last. What changes while it runs is a `Player`'s (player.h).
+/// its end the last. Changes while it runs are handled by `Player` (player.h).
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/curves/curve.h>
@@ -21,33 +21,33 @@
 
 namespace tweenfall {
 
-/// How fast a play runs, in clip seconds per stage second: one number, or a curve over the play's own time. The way
-/// that its clock has come is the curve's integral, and the curve itself is the exact rate.
+/// How fast a play runs, in clip seconds per stage second: one number, or a curve over the play's own time. The clip
+/// time that has passed is the curve's integral, and the curve itself is the exact rate.
 class PlaySpeed {
  public:
   PlaySpeed(double speed = 1) noexcept : constant_(speed) {}  // NOLINT(google-explicit-constructor): a number is one
 
-  /// @param speed  over seconds since the play's start; it holds its values outside its knots, and so does what is
-  /// before
+  /// @param speed over seconds since the play's start; it must hold its values outside its
+  /// knots
   /// @throws std::invalid_argument for a curve that has no end, or that does anything else outside its knots
   explicit PlaySpeed(const Curve<double>& speed);
 
   [[nodiscard]] bool is_constant() const noexcept { return !warp_; }
-  /// @param own  seconds since the play's start, here and below
+  /// The speed. @param own seconds since the play's start, here and below
   [[nodiscard]] double at(double own, Side side = Side::out) const noexcept;
   /// Clip seconds run since the start.
   [[nodiscard]] double way(double own) const noexcept;
-  /// 1 where it runs forward just after `own` (or before, for `Side::in`), -1 backwards, 0 where it rests.
+  /// 1 where it runs forwards just after `own` (or before, for `Side::in`), -1 backwards, 0 where it rests.
   [[nodiscard]] int direction(double own, Side side = Side::out) const noexcept;
-  /// The same between one turn and the next. @param turn  how many turns lie before
+  /// The direction between one of `turns` and the next. @param turn number of turns before
   [[nodiscard]] int direction_after(std::size_t turn) const noexcept;
-  /// The first direction that is none of rest; 0 for a play that never runs.
+  /// The first direction that is not 0; 0 for a play that never runs.
   [[nodiscard]] int first_direction() const noexcept;
-  /// Times after 0 between which it runs one way or rests, in order; empty for a constant.
+  /// Times after 0, in order, between which the direction does not change; empty for a constant.
   [[nodiscard]] std::span<const double> turns() const noexcept;
-  /// Greatest of either sign.
+  /// Greatest absolute value.
   [[nodiscard]] double greatest() const noexcept;
-  /// The curve, where it was made of one.
+  /// The curve, if it was made from one.
   [[nodiscard]] std::optional<Curve<double>> curve() const;
 
  private:
@@ -56,7 +56,7 @@ class PlaySpeed {
   std::shared_ptr<const Warp> warp_;
 };
 
-/// A way from one weight to another.
+/// A transition from one weight to another.
 struct Fade {
   double seconds = 0;  ///< >= 0
   Ease ease = Ease::linear();
@@ -68,31 +68,31 @@ struct Fade {
 struct Play {
   std::size_t clip = 0;             ///< index of the clip
   double at = 0;                    ///< stage time at which it starts, s
-  PlaySpeed speed = 1;              ///< over its own time; one that is negative at first starts at the end
+  PlaySpeed speed = 1;              ///< over its own time; if negative at first, the play starts at the end
   Curve<double> weight{1.0};        ///< over its own time, seconds since `at`; 0 to 1; its rate enters the blend
   std::vector<std::string> mask{};  ///< names or patterns ("arm/*") of the nodes it drives; empty: all
 
-  std::string name{};          ///< by which it is changed while it runs; empty: the clip's
+  std::string name{};          ///< the name used to change it while it runs; empty: the clip's
   double from = 0;             ///< the section of the clip that is played, clip seconds
   std::optional<double> to{};  ///< absent: the clip's end
-  double offset = 0;           ///< seconds of all rounds that lie behind when it starts; >= 0
+  double offset = 0;           ///< seconds of all rounds already played when it starts; >= 0
   bool reverse = false;        ///< each round from its end to its start
   std::optional<Loop> loop{};  ///< absent: the clip's own
   Fade fade_in{};              ///< of the weight, over stage seconds from the start
   Fade fade_out{};             ///< the same to the end of the play, where it has one
 };
 
-/// What is wrong with a play of this clip, a sentence each; empty for nothing.
+/// The faults of a play of this clip, one sentence each; empty if there are none.
 [[nodiscard]] std::vector<std::string> problems_of(const Play& play, const Clip& clip);
 
-/// Plays that run by another clock than the stage's, as after a hand-back: all moved together, or one clip alone.
+/// Runs plays by a clock other than the stage's, for example after a hand-back: all moved together, or only one clip.
 struct ClockOverride {
   static constexpr std::size_t every_clip = static_cast<std::size_t>(-1);
 
   double stage = 0;               ///< at this stage time, s, ...
-  double timeline = 0;            ///< ... the plays and their weights are where they were to be at this one, s
-  std::size_t clip = every_clip;  ///< when given, this clip alone, at full weight over all its nodes
-  double starts_by = 0;           ///< of `clip`, on the timeline, s: here it begins where no play has begun it
+  double timeline = 0;            ///< ... the plays and their weights are as they would be at this one, s
+  std::size_t clip = every_clip;  ///< if given, only this clip, at full weight over all its nodes
+  double starts_by = 0;           ///< timeline time at which `clip` begins if no play has begun it, s
 
   [[nodiscard]] double timeline_at(double stage_time) const noexcept { return timeline + (stage_time - stage); }
   [[nodiscard]] double stage_at(double timeline_time) const noexcept { return stage + (timeline_time - timeline); }
@@ -100,11 +100,11 @@ struct ClockOverride {
   bool operator==(const ClockOverride&) const = default;
 };
 
-/// Where a play's clock stands.
+/// The clock of a play at one time.
 struct ClipClock {
   double time = 0;  ///< clip time after looping, s
   double rate = 0;  ///< d(clip time)/d(stage time); 0 before the start and after the end: a pose that holds is at rest
-  int cycle = 0;    ///< how many whole rounds lie behind, from 0; what `climbs` gains counts them
+  int cycle = 0;    ///< number of whole rounds completed; multiplies the offset where it `climbs`
   bool started = false;  ///< stage time has reached `at`
   bool ended = false;    ///< all counted rounds are over
   Side side =
@@ -116,7 +116,7 @@ struct ClipClock {
 /// The clock at a stage time. At a seam `Side::in` is the end of the round before, `Side::out` the start of the next.
 [[nodiscard]] ClipClock clock_at(const Play& play, const Clip& clip, double stage_time, Side side = Side::out) noexcept;
 
-/// The same of a play of which only this matters: the stage time at which it starts, and its speed.
+/// The same for a play that has only a start, in stage time, and a speed.
 [[nodiscard]] ClipClock clock_at(double at, double speed, const Clip& clip, double stage_time, Side side) noexcept;
 
 /// An event as it happened on the stage.
@@ -129,30 +129,31 @@ struct FiredEvent {
   Kind kind = Kind::moment;
 };
 
-/// Events in (from, to] of stage time, in order, each once, also across loops; [from, to] when
-/// `from_start` (a play's first advance), so that an event at 0 fires. Moments outside the plays are silent.
+/// Events in (from, to] of stage time, in order, each once, also across loops; in [from, to] if `from_start` (a play's
+/// first advance), so that an event at 0 fires. Outside the time of the play nothing fires.
 ///
-/// A clock fires what it comes to: running forward over (t0, t1] of the clip, backwards over [t1, t0), at rest nothing;
-/// where it first moves, what it stands on too. An interval begins and ends in pairs: it begins where the clock moves
-/// into it, and ends where that leaves it, or the play ends inside.
+/// A clock fires the events that it reaches: running forwards those in (t0, t1] of the clip, backwards those in [t1,
+/// t0), at rest none; where it starts to move, also those at its own time. Begins and ends of intervals come in pairs:
+/// an interval begins where the clock enters it, and ends where the clock leaves it, or where the play ends inside it.
 /// @throws std::length_error naming the clip where a tiny loop makes more than a million of them.
 [[nodiscard]] std::vector<FiredEvent> events_between(const Play& play, const Clip& clip, double from, double to,
                                                      bool from_start = false);
 
-/// Why `events_between` would refuse some stretch of `seconds` or less, in words that name the clip; empty where it
-/// takes every one. A stage is refused for it before it runs.
+/// Why `events_between` would refuse some stretch of `seconds` or less, in a text that names the clip; empty where it
+/// accepts all. Such a stage is refused before it runs.
 /// @param seconds  >= 0
 [[nodiscard]] std::string too_many_events(const Play& play, const Clip& clip, double seconds);
 
-/// The first of these, ends of intervals left out: of any name, or of the one given. At once, however many follow.
+/// The first of these events, not counting ends of intervals: of any name, or of the one given. Its cost does not
+/// depend on how many follow.
 [[nodiscard]] std::optional<FiredEvent> first_event(const Play& play, const Clip& clip, double from, double to,
                                                     bool from_start = false,
                                                     std::optional<std::string_view> name = std::nullopt);
 
-/// Stage time at which the play is over: where its clock first comes to an end of all its rounds. Infinity for an
+/// Stage time at which the play is over: when its clock first reaches the end of all its rounds. Infinity for an
 /// endless one.
 [[nodiscard]] double end_time(const Play& play, const Clip& clip) noexcept;
-/// The same of a play of which only this matters: the stage time at which it starts, and its speed.
+/// The same for a play that has only a start, in stage time, and a speed.
 [[nodiscard]] double end_time(double at, double speed, const Clip& clip) noexcept;
 
 }  // namespace tweenfall

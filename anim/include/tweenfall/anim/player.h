@@ -1,7 +1,7 @@
 #pragma once
 
-/// `Player`: a play and what has been asked of it while it ran, each at its exact time. Clock, weight and events at any
-/// time are functions of both, before the changes as after them.
+/// `Player`: a play and the changes made to it while it ran, each at its exact time. Clock, weight and events at any
+/// time, before a change as well as after it, are functions of both.
 
 #include <tweenfall/anim/play.h>
 
@@ -16,9 +16,9 @@
 
 namespace tweenfall {
 
-/// A key of a weight or a speed: plain data, so that what was asked can be kept and asked again.
+/// A key of a weight or a speed: plain data, so that a change can be saved and repeated.
 struct PlayKey {
-  double time = 0;  ///< seconds from when it is asked for
+  double time = 0;  ///< seconds since the change
   double value = 0;
   Ease ease = Ease::smooth_clamped();
 
@@ -27,12 +27,12 @@ struct PlayKey {
 /// One key is a constant.
 using PlayKeys = std::vector<PlayKey>;
 
-/// What may be asked of a play. Where nothing else is said, what it does not name goes on: value and rate.
+/// The changes to a play. Unless stated otherwise, quantities that a change does not name continue with value and rate.
 namespace playing {
-/// It begins, now; where it runs already, again.
+/// The play begins now; if it runs already, it begins again.
 struct Start {
-  std::string clip{};  ///< by its name; empty: again as it was given, and nothing else is read
-  double from = 0;     ///< as of a play, all of these
+  std::string clip{};  ///< by its name; empty: restarts the play as it was given, and nothing else is read
+  double from = 0;     ///< this and the following as in `Play`
   std::optional<double> to{};
   double offset = 0;
   bool reverse = false;
@@ -43,14 +43,14 @@ struct Start {
 
   bool operator==(const Start&) const = default;
 };
-/// It is over, and has no say any more once it has faded.
+/// The play ends, and has no weight any more once it has faded.
 struct Stop {
   double seconds = 0;          ///< of fading
-  std::optional<Ease> ease{};  ///< absent: the weight's value and rate go on, and it comes to rest
+  std::optional<Ease> ease{};  ///< absent: the weight continues with its value and rate, and comes to rest
 
   bool operator==(const Stop&) const = default;
 };
-/// Its weight goes to another.
+/// The play's weight fades to another.
 struct FadeTo {
   double weight = 1;  ///< 0 to 1
   double seconds = 0;
@@ -58,24 +58,24 @@ struct FadeTo {
 
   bool operator==(const FadeTo&) const = default;
 };
-/// Its weight is another from now on, `fade_in` included; a jump, unless the new one begins where the old one is.
+/// The play's weight is replaced from now on, `fade_in` included; it jumps unless the new one begins at the old value.
 struct Weigh {
   PlayKeys weight{{0, 1}};
 
   bool operator==(const Weigh&) const = default;
 };
-/// Its clock goes on from where it is, at another speed.
+/// The play's clock continues from its present time at another speed.
 struct SetSpeed {
   PlayKeys speed{{0, 1}};
-  double seconds = 0;  ///< in which the speed goes there, evenly, from what it is; of one key alone
+  double seconds = 0;  ///< in which the speed changes linearly from its present value; only for a single key
 
   bool operator==(const SetSpeed&) const = default;
 };
-/// Its clock is at another time of the clip, within its section. A play that was over goes on.
+/// The play's clock jumps to another time of the clip, within its section. A play that was over continues.
 struct Seek {
   double time = 0;      ///< clip time, s
-  bool events = false;  ///< whether what lies between fires, all of it now
-  double fade = 0;  ///< s in which the pose of the clock as it was, which runs on, fades into the new one; 0: a jump
+  bool events = false;  ///< whether the events in between fire, all of them now
+  double fade = 0;      ///< s in which the pose by the old clock, which runs on, fades into the new one; 0: a jump
 
   bool operator==(const Seek&) const = default;
 };
@@ -84,7 +84,7 @@ struct Seek {
 using PlayAction =
     std::variant<playing::Start, playing::Stop, playing::FadeTo, playing::Weigh, playing::SetSpeed, playing::Seek>;
 
-/// A play asked for something, at a time.
+/// A change to a play, at a time.
 struct PlayChange {
   double time = 0;   ///< stage time, s
   std::string play;  ///< its name, or that of its clip
@@ -93,28 +93,29 @@ struct PlayChange {
   bool operator==(const PlayChange&) const = default;
 };
 
-/// @throws std::invalid_argument for keys that make no curve
+/// @throws std::invalid_argument for keys that do not make a curve
 [[nodiscard]] Curve<double> curve_of(const PlayKeys& keys);
 
-/// The play that `start` asks for. @param clip  index of its clip
-/// @throws std::invalid_argument for keys that make no curve
+/// The play that `start` describes. @param clip index of its clip
+/// @throws std::invalid_argument for keys that do not make a curve
 [[nodiscard]] Play play_of(const playing::Start& start, std::size_t clip);
 
-/// A clock of a play, and its say.
+/// A clock of a play, and its weight.
 struct PlayVoice {
   ClipClock clock;
   Sample<double> weight;
 };
-/// All that a play shows at a time, the lowest first: one, and below it, while a seek fades, what it was before.
+/// All that a play shows at a time, the lowest first: its current clock and, below it while a seek fades, the earlier
+/// ones.
 struct PlayVoices {
-  static constexpr std::size_t most = 8;  ///< beyond which the oldest is heard no more
+  static constexpr std::size_t most = 8;  ///< beyond this the oldest is dropped
   std::array<PlayVoice, most> list{};
   std::size_t count = 0;
 };
 
 class Player {
  public:
-  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  // A move is a copy: that is just as cheap, and the object moved from stays valid.
   Player(const Player&) noexcept = default;
   Player& operator=(const Player&) noexcept = default;
 
@@ -123,37 +124,39 @@ class Player {
 
   /// The play as it is after all changes.
   [[nodiscard]] const Play& play() const noexcept;
-  /// When the play that runs now began, s.
+  /// When the current play began, s.
   [[nodiscard]] double at() const noexcept;
-  /// When it first did.
+  /// When the first play began, s.
   [[nodiscard]] double first_at() const noexcept;
 
-  /// The same player, asked for something at `time`, which is not before the last change.
+  /// The same player with a change at `time`, which must not be before the last change.
   /// @param clip  its own
-  /// @throws std::invalid_argument for what cannot be
+  /// @throws std::invalid_argument for an impossible change
   [[nodiscard]] Player changed(const Clip& clip, double time, const PlayAction& action) const;
 
   [[nodiscard]] ClipClock clock(double time, Side side = Side::out) const noexcept;
-  /// Of its say: with its fades; 0 once it was stopped.
+  /// The weight with its fades; 0 once it was stopped.
   [[nodiscard]] Sample<double> weight(double time, Side side = Side::out) const noexcept;
-  /// Clock and weight, while a seek fades of each pose that shows: laid over each other they have the play's weight.
+  /// Clock and weight of each pose that shows; there are several while a seek fades. Layered, they have the play's
+  /// weight.
   [[nodiscard]] PlayVoices voices(double time, Side side = Side::out) const noexcept;
-  /// Whether it was stopped and has no say.
+  /// Whether it was stopped and has no weight any more.
   [[nodiscard]] bool is_gone(double time, Side side = Side::out) const noexcept;
-  /// When the play that runs now is over, or stopped, s; infinity for never.
+  /// When the current play is over, or stopped, s; infinity for never.
   [[nodiscard]] double end() const noexcept;
-  /// First time in (from, to] at which the weight of the play that runs now jumps by a key of its own; infinity for
+  /// First time in (from, to] at which the weight of the current play jumps at one of its keys; infinity for
   /// none.
   [[nodiscard]] double first_weight_jump(double from, double to) const noexcept;
 
-  /// As for plays, of `clip`, which may be another one of the same length.
+  /// As for plays, with the events of `clip`, which may be another one of the same length.
   [[nodiscard]] std::vector<FiredEvent> events_between(const Clip& clip, double from, double to,
                                                        bool from_start = false) const;
   [[nodiscard]] std::optional<FiredEvent> first_event(const Clip& clip, double from, double to, bool from_start = false,
                                                       std::optional<std::string_view> name = std::nullopt) const;
-  /// What the last change itself fires, at its very time: what starts on an event, what a leap enters and leaves.
+  /// The events that the last change itself fires, at its exact time: those at the time where it starts, and those of
+  /// intervals that a jump enters or leaves.
   [[nodiscard]] std::vector<FiredEvent> events_of_change(const Clip& clip) const;
-  /// Calls `visit` with each of these events until it returns false.
+  /// Calls `visit` with each event of `events_between` until it returns false.
   void visit_events(const Clip& clip, double from, double to, bool from_start,
                     const std::function<bool(FiredEvent&&)>& visit) const;
 
@@ -164,12 +167,12 @@ class Player {
   std::shared_ptr<Life> latest_;
 };
 
-/// A player as a clock lets it run, told on the stage's time.
+/// A player run by a clock override, with times in stage time.
 struct RunningPlay {
   const Player* player = nullptr;
   const Clip* clip = nullptr;
   ClockOverride clock_override{};
-  double lead = 0;     ///< how far it is beyond its own time, s
+  double lead = 0;     ///< how far it is ahead of its own time, s
   bool alone = false;  ///< at full weight over all its nodes
 
   [[nodiscard]] double own_time(double stage_time) const noexcept {

@@ -1,14 +1,15 @@
 #pragma once
 
-/// The poses of one skeleton for another, of other proportions, other joints between and other axes of the joints.
+/// Transfers the poses of one skeleton to another with different proportions, intermediate joints and joint axes.
 ///
 /// A joint of the target turns, in the space of the whole figure, as its source joint turns from rest: its rotation is
-/// that turn of its own rotation at rest. Joints without a source keep their rest pose relative to their parent. Ways
-/// are those of the joint that carries the figure, the hips, scaled by the ratio of the two hip heights; all other
-/// joints keep the lengths of their own bones. Scales are those of the target at rest. All rates are exact.
+/// that turn applied to its own rotation at rest. Joints without a source keep their rest pose relative to their
+/// parent. Displacements come from the joint that carries the figure, the hips, scaled by the ratio of the two hip
+/// heights; all other joints keep the lengths of their own bones. Scales are those of the target at rest. All rates are
+/// exact.
 ///
-/// Where the two rest poses do not stand alike (arms out, arms down), poses in which they do are given as stances.
-/// Scales of the rest poses are taken into account as far as they are even.
+/// If the two rest poses differ (arms out, arms down), poses that match are given as stances. Scales of the rest poses
+/// are taken into account if they are uniform.
 
 #include <tweenfall/anim/hierarchy.h>
 
@@ -18,33 +19,35 @@
 
 namespace tweenfall {
 
-/// Two names, or two patterns of names: what `*` stands for in the source stands for in the target ("mixamorig:*" and
-/// "*"; as many in both); of a pattern, joints that the target lacks are left out.
+/// Two names, or two patterns of names in which `*` stands for the same text ("mixamorig:*" and "*"; both have the same
+/// number of `*`); with a pattern, joints that the target lacks are skipped.
 struct RetargetPair {
   std::string source, target;
-  bool moves = false;  ///< its way from rest is taken over too, scaled; that of joints below no other mapped one always
+  bool moves = false;  ///< its displacement from rest is transferred too, scaled; always so for joints below no other
+                       ///< mapped one
 };
 
 struct RetargetSettings {
-  double scale = 0;       ///< of ways; 0: the ratio of the hip heights, of the highest mapped joint that moves
-  Vec3 up{0, 1, 0};       ///< in the source's space: along it heights are measured, from the origin
+  double scale = 0;       ///< of displacements; 0: the ratio of the hip heights, those of the highest mapped joint that
+                          ///< moves
+  Vec3 up{0, 1, 0};       ///< in the source's space; heights are measured along it from the origin
   Quat turn{1, 0, 0, 0};  ///< from the source figure's space to the target figure's
-  std::vector<Pose> source_stance{}, target_stance{};  ///< local poses in which both stand alike; empty: the rest poses
+  std::vector<Pose> source_stance{}, target_stance{};  ///< local poses that match each other; empty: the rest poses
 };
 
 class Retarget {
  public:
-  /// @throws std::invalid_argument listing all problems: names and patterns of no joint, a joint mapped twice, a joint
-  /// that is below another in the target and not in the source, no pairs, hips on the ground where no scale is given,
-  /// stances of another size.
+  /// @throws std::invalid_argument listing all problems: names and patterns that match no joint, a joint mapped twice,
+  /// a joint that is below another in the target but not in the source, no pairs, hips on the ground without a scale
+  /// given, stances of another size.
   Retarget(const Hierarchy& source, const Hierarchy& target, std::span<const RetargetPair> pairs,
            const RetargetSettings& settings = {});
 
-  /// Of target joints.
+  /// Number of target joints.
   [[nodiscard]] std::size_t size() const noexcept { return joints_.size(); }
   /// The source joint of a target joint, or `no_node`.
   [[nodiscard]] std::size_t source_of(std::size_t joint) const noexcept { return joints_[joint].source; }
-  /// Of ways.
+  /// The factor for displacements.
   [[nodiscard]] double scale() const noexcept { return scale_; }
 
   /// @param source  local motions of the source  @param out  written, one for each joint of the target; not the source
@@ -54,10 +57,10 @@ class Retarget {
   struct Joint {
     Motion rest;
     std::size_t source = no_node;
-    std::size_t chain = 0, chain_end = 0;        ///< the source's joints below the one of the next mapped parent
-    Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before Q after, Q being the chain's
-    Vec3 chain_place{0, 0, 0};                   ///< the chain's end at rest
-    Mat3 way = Mat3::Zero();                     ///< from the way of the chain's end to its own
+    std::size_t chain = 0, chain_end = 0;        ///< the source's joints down from the source of the next mapped parent
+    Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before * Q * after, with Q the chain's
+    Vec3 chain_place{0, 0, 0};                   ///< position of the chain's end at rest
+    Mat3 way = Mat3::Zero();                     ///< maps the displacement of the chain's end to its own
   };
   class Maker;
 

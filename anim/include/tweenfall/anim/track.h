@@ -35,27 +35,28 @@ using WeightCurves = std::vector<Curve<double>>;
 using TrackCurve = std::variant<Curve<double>, Curve<Vec2>, Curve<Vec3>, Curve<Vec4>, Curve<Color>, Curve<Quat>,
                                 WeightCurves, StepCurve<bool>, StepCurve<std::string>>;
 
-/// What a track drives. `user` is any other name: evaluated and reported, but nothing of ours reads it.
+/// What a track drives. `user` is any other name: such a track is evaluated and reported, but the library does not use
+/// it.
 enum class Property { position, rotation, scale, color, weights, user };
 
-/// The property that a word names; `user` for a word that is none of ours.
+/// The property that a word names; `user` for any word that is not one of ours.
 [[nodiscard]] Property property_named(std::string_view word) noexcept;
 
 struct Track {
   std::string node;  ///< name of the node
   /// "position", "rotation", "scale", "color", "weights", one number of one of the first four ("position.y", see
-  /// component.h), or a name of the user's.
+  /// component.h), or a name chosen by the user.
   std::string property;
-  /// Of position and scale a Curve<Vec3>, of rotation Curve<Quat>, of color Curve<Color>, of weights WeightCurves; of a
-  /// component Curve<double>.
+  /// A Curve<Vec3> for position and scale, Curve<Quat> for rotation, Curve<Color> for color, WeightCurves for weights,
+  /// and Curve<double> for a component.
   TrackCurve curve;
-  /// Compose with the node's rest value instead of replacing it; of a component: add to the node's own number, or
+  /// Compose with the node's rest value instead of replacing it; for a component: add to the node's own number, or
   /// multiply its scale.
   bool relative = false;
-  /// The author's words for how the curve goes on from its keys ("smooth", "quad-in-out"), for people: each with the
-  /// time of the first key that it is said of, s, up to the next pair; empty words and an empty list say nothing.
+  /// The author's words for how the curve leaves its keys ("smooth", "quad-in-out"), for display: each with the time of
+  /// the first key that it applies to, s, until the next pair; empty words and an empty list mean nothing.
   std::vector<std::pair<double, std::string>> words{};
-  EulerOrder order{};  ///< of a rotation's component: the order in which its angles turn
+  EulerOrder order{};  ///< for a component of a rotation: the order of its angles
 
   [[nodiscard]] std::string name() const { return node + "." + property; }
 };
