@@ -64,6 +64,6 @@ TEST_CASE("a mask lists every pattern that names no joint and every weight that 
                        "  no joint is named \"\"",
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(JointMask(std::vector<double>{0, 2}),
-                       "a mask has weights that are none:\n  the weight of node 1 must be 0 to 1; it is 2",
+                       "a mask has invalid weights:\n  the weight of node 1 must be 0 to 1; it is 2",
                        std::invalid_argument);
 }

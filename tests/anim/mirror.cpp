@@ -169,14 +169,14 @@ TEST_CASE("a mirror lists all that is wrong with its pairs") {
                        "  the normal of its plane must have a length, and be finite\n"
                        "  \"foot.L\" has no partner, for there is no \"foot.R\"\n"
                        "  no joint matches \"wing*\" or \"fin*\"\n"
-                       "  \"*a*\" and \"*\" must have as many *\n"
+                       "  \"*a*\" and \"*\" must have the same number of *\n"
                        "  \"arm.L\" has two partners, \"arm.R\" and \"hips\"",
                        std::invalid_argument);
   const std::vector<MirrorPair> uneven{{"arm.L", "arm.R"}, {"hand.L", "hand.R"}};
   CHECK_THROWS_WITH_AS(
       Mirror(nodes, uneven),
       "a mirror does not fit its joints:\n"
-      "  \"hand.L\" is below \"arm.L\" and its partner \"hand.R\" below \"hips\", which are no partners",
+      "  \"hand.L\" is below \"arm.L\" and its partner \"hand.R\" below \"hips\", which are not partners",
       std::invalid_argument);
 }
 

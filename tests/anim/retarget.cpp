@@ -190,29 +190,29 @@ TEST_CASE("all that is wrong with a map between skeletons is listed") {
                                         {"arm", "Arm"},  {"arm", "Hand"}, {"x*", "*"},         {"*", "hat"},
                                         {"t*", "T*"},    {"arm", "Arm"}};
   CHECK_THROWS_WITH_AS(Retarget(source, target, pairs, {.target_stance = {Pose{}}}),
-                       "poses cannot be taken over to the other skeleton:\n"
+                       "poses cannot be transferred to the other skeleton:\n"
                        "  in the source no joint is named \"hip\"; did you mean \"hips\"?\n"
                        "  in the target no joint is named \"Arme\"; did you mean \"Arm\"?\n"
                        "  \"Chest\" is mapped twice, to \"spine1\" and to \"spine2\"\n"
                        "  \"arm\" is mapped twice, to \"Arm\" and to \"Hand\"\n"
                        "  in the source no joint matches \"x*\"\n"
-                       "  \"*\" and \"hat\" must have as many *\n"
+                       "  \"*\" and \"hat\" must have the same number of *\n"
                        "  in the target no joint is named by \"T*\" as those of the source by \"t*\"\n"
                        "  \"Arm\" is mapped twice, both times to \"arm\"\n"
                        "  the stance of the target needs a pose for each of its 8 joints; it has 1",
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(Retarget(source, target, {}),
-                       "poses cannot be taken over to the other skeleton:\n  no joints are mapped",
+                       "poses cannot be transferred to the other skeleton:\n  no joints are mapped",
                        std::invalid_argument);
   const std::vector<RetargetPair> crossed{{"arm", "Chest"}, {"spine2", "Arm"}};
   CHECK_THROWS_WITH_AS(Retarget(source, target, crossed),
-                       "poses cannot be taken over to the other skeleton:\n"
+                       "poses cannot be transferred to the other skeleton:\n"
                        "  \"Arm\" is below \"Chest\", but its source \"spine2\" is not below \"arm\"",
                        std::invalid_argument);
   const std::vector<RetargetPair> low{{"root", "Armature"}};
   CHECK_THROWS_WITH_AS(
       Retarget(source, target, low),
-      "poses cannot be taken over to the other skeleton:\n"
+      "poses cannot be transferred to the other skeleton:\n"
       "  the hips \"Armature\" stand 0.1 above the ground, and those of the source 0; where not both are "
       "above it a scale must be given",
       std::invalid_argument);

@@ -247,7 +247,7 @@ TEST_CASE("all that keeps root motion from being taken out is listed") {
   CHECK_THROWS_WITH_AS(RootMotion(rooted_figure(), "hps", {false, false, RootParts::Turn::none, {0, 0, 0}}),
                        "root motion cannot be taken out:\n"
                        "  no joint is named \"hps\"; did you mean \"hips\"?\n"
-                       "  there is nothing to take out: no way over the ground, none up and down, and no turn\n"
+                       "  there is nothing to take out: no movement over the ground or up and down, and no turn\n"
                        "  the direction up must have a length, and be finite",
                        std::invalid_argument);
 }

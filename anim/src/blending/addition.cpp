@@ -44,7 +44,7 @@ Motion difference(const Motion& reference, const Motion& pose) noexcept {
 Motion add(const Motion& base, const Motion& difference, const Sample<double>& weight) noexcept {
   const double w = weight.value, w_rate = weight.rate;
   if (w == 0 && w_rate == 0) return base;
-  // The part of the difference is what lies so far on the way to it from nothing.
+  // The part of the difference is a mix of the identity and the whole difference.
   const Motion part = mix(Motion{}, difference, w, w_rate);
   Motion result = base;
   result.pose.position += part.pose.position;

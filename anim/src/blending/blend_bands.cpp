@@ -56,7 +56,7 @@ void BlendBands::weights(const Sample<Vec2>& parameter, std::span<Sample<double>
     sum.rate += least.rate;
     sum.acceleration += least.acceleration;
   }
-  // That of the nearest entry is a half or more, but for rounding from very far away.
+  // The influence of the nearest entry is a half or more, except for rounding very far away.
   if (!(sum.value > 0)) {
     weights[nearest].value = 1;
     return;

@@ -29,14 +29,14 @@ BlendLine::BlendLine(std::vector<double> places) : places_(std::move(places)), o
         problems += "\n  entries " + std::to_string(order_[i - 1]) + " and " + std::to_string(order_[i]) +
                     " are both at " + number_text(places_[order_[i]]);
     if (order_.size() >= 2 && !std::isfinite(places_[order_.back()] - places_[order_.front()]))
-      problems += "\n  its places are farther apart than a number can tell";
+      problems += "\n  its places are too far apart for a number to hold the distance";
   }
   if (!problems.empty()) throw std::invalid_argument("a blend line cannot be made of its entries:" + problems);
 }
 
 void BlendLine::weights(const Sample<double>& parameter, std::span<Sample<double>> weights, Side side) const noexcept {
   std::ranges::fill(weights, Sample<double>{0, 0, 0});
-  // The first place beyond the parameter, which at a place depends on where it is heading.
+  // The first place beyond the parameter; exactly at a place, the direction of the parameter decides.
   const auto beyond = std::ranges::partition_point(order_, [&](std::size_t entry) {
     const double past = parameter.value - places_[entry];
     return past > 0 || (past == 0 && blending::heading(parameter.rate, parameter.acceleration, side) >= 0);

@@ -26,7 +26,7 @@ Sample<double> divided(const Sample<double>& number, double by) noexcept {
   return {number.value / by, number.rate / by, number.acceleration / by};
 }
 
-// The turns about the edges opposite to the corners: the weights, but for their sum.
+// The turns about the edges opposite the corners: the weights before division by their sum.
 std::array<Sample<double>, 3> turns_in(std::span<const Vec2> places, const Triangle& triangle,
                                        const Sample<Vec2>& at) noexcept {
   return {moving_turn(places, triangle[1], triangle[2], at), moving_turn(places, triangle[2], triangle[0], at),
@@ -67,12 +67,12 @@ BlendPlane::BlendPlane(std::vector<Vec2> places) : places_(std::move(places)) {
       for (const std::size_t entry : triangle) used[entry] = 1;
     if (triangles_.empty())
       problems += "\n  all its entries lie on one line, from " + blending::text_of(places_[0]) + " to " +
-                  blending::text_of(places_.back()) + "; a blend line takes such";
+                  blending::text_of(places_.back()) + "; use a blend line for these";
     else
       for (std::size_t i = 0; i < used.size(); ++i)
         if (!used[i])
           problems += "\n  entry " + std::to_string(i) + " at " + blending::text_of(places_[i]) +
-                      " makes a triangle without an area with every two others";
+                      " makes a triangle without an area with any two others";
   }
   if (!problems.empty()) throw std::invalid_argument("a blend plane cannot be made of its entries:" + problems);
 }
@@ -86,7 +86,7 @@ void BlendPlane::weights(const Sample<Vec2>& parameter, std::span<Sample<double>
   std::ranges::fill(weights, Sample<double>{0, 0, 0});
   const Sample<Vec2> at{scaled(parameter.value), parameter.rate / size_, parameter.acceleration / size_};
 
-  // Beyond an edge of the border, and beside none of its ends: the nearest point is on it.
+  // Beyond an edge of the border, between its ends: the nearest point is on that edge.
   const std::size_t count = border_.size();
   bool outside = false;
   double nearest = std::numeric_limits<double>::infinity();
@@ -123,7 +123,7 @@ void BlendPlane::weights(const Sample<Vec2>& parameter, std::span<Sample<double>
       best = &triangle;
       break;
     }
-    // Rounding may leave the parameter outside of all, by less than a hair.
+    // Rounding may leave the parameter very slightly outside all triangles.
     const double inside = std::min({turns[0].value, turns[1].value, turns[2].value});
     if (inside > least_outside) {
       least_outside = inside;

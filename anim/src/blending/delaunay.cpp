@@ -42,7 +42,7 @@ class Sweep {
     if (result.triangles.empty()) border.clear();
   }
 
-  // Edges whose neighbor's far corner lies inside the circle are turned, until there is none.
+  // Edges whose opposite corner lies inside the circumcircle are flipped, until there are none.
   void turn_edges() {
     using Edge = std::pair<std::size_t, std::size_t>;
     std::vector<Triangle>& triangles = result.triangles;
@@ -57,8 +57,8 @@ class Sweep {
         if (!fresh) at->second[1] = t;
         if (!fresh) waiting.push_back(at->first);
       }
-    // Each turn makes the triangulation better by more than rounding, so this ends; the bound is for what no one has
-    // thought of.
+    // Each flip improves the triangulation by more than rounding, so this ends; the bound is only a
+    // safeguard.
     std::size_t turns = 0;
     const std::size_t most = 100 * points_.size() * points_.size();
     while (!waiting.empty() && turns < most) {

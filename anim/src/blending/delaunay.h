@@ -13,8 +13,8 @@ namespace tweenfall::blending {
 
 using Triangle = std::array<std::size_t, 3>;
 
-/// Twice the area of a triangle, above 0 where it is counter-clockwise: the same number but for its sign for the
-/// corners in whatever order they are given, so that neighbors agree on which side of their edge a point is.
+/// Twice the area of a triangle, above 0 where it is counter-clockwise: up to its sign the same number for any order of
+/// the corners, so that neighbors agree on which side of their edge a point is.
 [[nodiscard]] double turn_of(std::span<const Vec2> points, std::size_t a, std::size_t b, const Vec2& p) noexcept;
 
 struct Triangulation {
@@ -22,7 +22,7 @@ struct Triangulation {
   std::vector<std::size_t> border;  ///< counter-clockwise
 };
 
-/// Of points that differ, within a square of size 1. No triangles where all lie on one line, to 1e-12.
+/// The triangulation of distinct points within a square of size 1. No triangles where all lie on one line, to 1e-12.
 [[nodiscard]] Triangulation delaunay(std::span<const Vec2> points);
 
 }  // namespace tweenfall::blending

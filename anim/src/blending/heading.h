@@ -1,6 +1,6 @@
 #pragma once
 
-// Which way something goes that is just now at a border.
+// The direction in which a number crosses a border that it is exactly on.
 
 #include <tweenfall/curves/values.h>
 
@@ -13,7 +13,7 @@ namespace tweenfall::blending {
   return acceleration > 0 ? 1 : acceleration < 0 ? -1 : 0;
 }
 
-/// The same of any number: its own sign, where it has one.
+/// The same for any number: its own sign, unless it is 0.
 [[nodiscard]] inline int heading(const Sample<double>& number, Side side) noexcept {
   if (number.value != 0) return number.value > 0 ? 1 : -1;
   return heading(number.rate, number.acceleration, side);

@@ -35,7 +35,7 @@ Names round_of(const Names& names) {
   return names;
 }
 
-// With which marker of the round the names begin; the round's size where they are not its repetitions.
+// The index of the marker in the round with which the names begin; the round's size where they do not repeat it.
 std::size_t start_in(const Names& round, const Names& names) {
   if (names.size() % round.size() != 0) return round.size();
   for (std::size_t start = 0; start < round.size(); ++start) {
@@ -52,7 +52,7 @@ std::string listed(const Names& names) {
   return text;
 }
 
-// Sorted by time, the end of the loop being its start.
+// Also sorts the markers by time, where the end of the loop counts as its start.
 std::string problems_of(SyncClip& clip, const std::string& name) {
   std::string problems;
   if (!(clip.duration > 0) || !std::isfinite(clip.duration))
@@ -100,12 +100,12 @@ MarkerSync::MarkerSync(std::vector<SyncClip> clips) {
     }
     if (blending::start_in(round, names) == round.size()) {
       problems += "\n  the markers of " + name + " (" + blending::listed(names) +
-                  ") do not follow each other as those of " + leader + " (" + blending::listed(round) + ")";
+                  ") are not in the same order as those of " + leader + " (" + blending::listed(round) + ")";
       continue;
     }
     repetitions = std::lcm(repetitions, names.size() / round.size());
     if (repetitions > 1000000) {
-      problems += "\n  the markers of " + name + " go around so often that clips never meet again";
+      problems += "\n  the markers of " + name + " go around so often that the clips never coincide again";
       repetitions = 1;
     }
   }
@@ -128,7 +128,7 @@ MarkerSync::MarkerSync(std::vector<SyncClip> clips) {
         const double to = i + 1 < count ? clip.markers[i + 1].time : clip.markers[0].time + clip.duration;
         stretches.push_back({from, to - from, 0, 0});
       }
-      // The harmonic mean of both sides is at most twice the lesser, so that no cubic turns.
+      // The harmonic mean of both sides is at most twice the lesser, so that every cubic is monotone.
       for (std::size_t i = 0; i < count; ++i) {
         Stretch& before = stretches[(i + count - 1) % count];
         const double a = before.length, b = stretches[i].length;
@@ -139,9 +139,9 @@ MarkerSync::MarkerSync(std::vector<SyncClip> clips) {
   }
 }
 
-/// Of a clip at a phase, and its derivatives with respect to the phase.
+/// The time of a clip at a phase, and its derivatives with respect to the phase.
 struct MarkerSync::Place {
-  double time = 0;  ///< from the start of its first loop on, not around the loop
+  double time = 0;  ///< since the start of its first loop, not wrapped
   double cycle = 0;
   double first = 0, second = 0;
 };
@@ -191,7 +191,7 @@ Sample<double> MarkerSync::running(double phase, std::span<const Sample<double>>
   blending::Whole whole;
   for (const Sample<double>& weight : weights) whole.add(blending::above_nothing(weight));
   const bool even = whole.is_nothing();
-  // Seconds per phase, averaged, with the part of its rate that does not come from the phase's own running.
+  // Averaged seconds per phase, and the two parts of its rate: from the weights and from the phase itself.
   double seconds = 0, by_weights = 0, by_phase = 0;
   for (std::size_t i = 0; i < clips_.size(); ++i) {
     const Sample<double> share = even ? Sample<double>{1 / static_cast<double>(clips_.size()), 0, 0}
@@ -208,7 +208,7 @@ Sample<double> MarkerSync::running(double phase, std::span<const Sample<double>>
 template <class Share>
 double MarkerSync::advanced_by(double phase, double seconds, const Share& share) const noexcept {
   if (seconds == 0) return phase;
-  // What the clips go on by in one period, averaged: whole periods are left out, and put back at the end.
+  // The averaged advance of the clips in one period: whole periods are taken out, and put back at the end.
   double whole = 0;
   for (std::size_t i = 0; i < clips_.size(); ++i)
     whole += share(i) * clips_[i].duration * (period_ / static_cast<double>(clips_[i].stretches.size()));
@@ -258,8 +258,8 @@ double MarkerSync::advanced(double phase, double seconds, std::span<const double
     return std::max(weights[i], 0.0) / sum;
   };
   const bool steady = std::ranges::equal(from, to);
-  // The middle's shares held for each of some equal parts are right to the second order, and wrong by even powers of
-  // their length alone.
+  // Holding the middle shares over each of some equal parts is accurate to second order, with errors in even powers of
+  // their length only.
   const auto in_parts = [&](int parts) noexcept {
     double at = phase;
     for (int k = 0; k < parts; ++k) {

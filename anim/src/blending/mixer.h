@@ -1,6 +1,6 @@
 #pragma once
 
-// A weighted mean of as many values as there are, without memory for them.
+// A weighted mean of any number of values, without storing them all.
 
 #include <tweenfall/curves/values.h>
 
@@ -11,9 +11,9 @@
 
 namespace tweenfall::blending {
 
-/// The mean of what is put into it, one after the other. It holds a few at a time; when there are more, those it has
-/// are mixed to one of their weight.
-/// @tparam Mean  of two values or more with shares that do not sum to nothing
+/// The mean of values added one after the other. It holds a few at a time; when there are more, the ones held are mixed
+/// into one with the sum of their weights.
+/// @tparam Mean takes two values or more, with shares that do not sum to zero
 template <class Value, class Mean>
 class Mixer {
  public:
@@ -49,8 +49,9 @@ class Mixer {
   std::size_t count_ = 0;
 };
 
-/// Puts all that counts into the mixer: `weight(i)` and `value(i)` of each, and what fills them up to the least.
-/// @return false where they weigh nothing
+/// Adds all values with a weight to the mixer: `weight(i)` and `value(i)` of each, and the rest with the weight missing
+/// to the least.
+/// @return false where all weights are zero
 template <class M, class Weight, class Get, class Rest>
 [[nodiscard]] bool fill(M& mixer, std::size_t count, const Weight& weight, const Get& value, const Rest& rest,
                         double least) noexcept {

@@ -1,11 +1,11 @@
 #pragma once
 
-// What is found in steps, the steps so short that they do not count.
+// The limit of a result computed in steps as the steps become infinitely short.
 
 namespace tweenfall::blending {
 
-/// Romberg's scheme: what is wrong by even powers of the steps' length alone, without the first two of them.
-/// @param in_parts  what comes out of so many equal steps
+/// Romberg's scheme for results whose errors are in even powers of the step length: removes the first two.
+/// @param in_parts the result for a given number of equal steps
 template <class InParts>
 [[nodiscard]] double extrapolated(const InParts& in_parts) noexcept {
   const double one = in_parts(1), two = in_parts(2), four = in_parts(4);

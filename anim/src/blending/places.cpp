@@ -13,7 +13,7 @@ std::string text_of(const Vec2& place) {
 
 namespace {
 
-// Pairs that are nearer to each other than 1e-9 of the whole, among places within a square of size 1.
+// Lists the pairs that are nearer to each other than 1e-9, among places within a square of size 1.
 std::string nearly_equal(std::span<const Vec2> scaled, std::span<const Vec2> places) {
   std::vector<std::size_t> order(scaled.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -50,7 +50,7 @@ PlaneFrame framed(std::span<const Vec2> places, std::vector<Vec2>& scaled, std::
     frame.size = std::max(most[0] - least[0], most[1] - least[1]);
     if (!(frame.size > 1e-150)) frame.size = 1;  // all at one place
     if (!(frame.size < 1e150)) {
-      problems += "\n  its places are farther apart than numbers can tell";
+      problems += "\n  its places are too far apart for a number to hold the distance";
       finite = false;
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Places of entries on a plane, as seen from their middle, the whole being of size 1.
+// Places of entries on a plane, relative to their middle and scaled to size 1.
 
 #include <tweenfall/curves/values.h>
 
@@ -23,7 +23,7 @@ struct PlaneFrame {
 [[nodiscard]] std::string text_of(const Vec2& place);
 
 /// @param scaled    written, one for each place, where these are finite
-/// @param problems  a line for each is added: places that are not finite, too far apart, or two at one
+/// @param problems one line is added for each: places that are not finite, too far apart, or equal
 [[nodiscard]] PlaneFrame framed(std::span<const Vec2> places, std::vector<Vec2>& scaled, std::string& problems);
 
 }  // namespace tweenfall::blending

@@ -1,6 +1,6 @@
 #pragma once
 
-// Weights as parts of a whole, with their rates.
+// Weights divided by their sum, with their rates.
 
 #include <tweenfall/curves/values.h>
 
@@ -8,12 +8,12 @@
 
 namespace tweenfall::blending {
 
-/// What a layer weighs: nothing where that is below nothing.
+/// The weight of a layer: negative weights count as 0.
 [[nodiscard]] inline Sample<double> above_nothing(const Sample<double>& weight) noexcept {
   return weight.value >= 0 ? weight : Sample<double>{0, 0, 0};
 }
 
-/// The sum of weights that count, and of what fills it up to the least: that one's weight.
+/// The sum of the weights, and the weight of the rest pose that is missing to the least.
 struct Whole {
   Sample<double> sum{0, 0, 0};
   Sample<double> filling{0, 0, 0};
@@ -30,7 +30,7 @@ struct Whole {
   }
   [[nodiscard]] bool is_nothing() const noexcept { return !(sum.value > 1e-100) || !(sum.value < 1e300); }
 
-  /// w / sum; rates that no number can hold, as of weights next to nothing, count as none.
+  /// w / sum; rates that are not finite, as for extremely small weights, count as 0.
   [[nodiscard]] Sample<double> share(const Sample<double>& weight) const noexcept {
     const double value = weight.value / sum.value;
     const double rate = (weight.rate - value * sum.rate) / sum.value;

@@ -16,7 +16,7 @@ bool is(const Sample<double>& weight, double value) noexcept {
   return weight.value == value && weight.rate == 0 && weight.acceleration == 0;
 }
 
-// The plain numbers of a value that is added by its parts.
+// The numbers of a value whose parts are simply added.
 template <class T>
 auto& plain(T& value) noexcept {
   if constexpr (std::is_same_v<std::remove_const_t<T>, Color>)
@@ -43,7 +43,7 @@ template <class T>
 Sample<T> faded(const Sample<T>& a, const Sample<T>& b, const Sample<double>& weight, ColorSpace space) noexcept {
   if (is(weight, 0)) return a;
   if (is(weight, 1)) return b;
-  // Beyond this 1 is nothing beside w.
+  // Beyond this, 1 is lost to rounding beside w.
   if (!(std::abs(weight.value) < 1e15)) return weight.value > 0 ? b : a;
   Sample<T> result = between(a, b, weight, space);
   if (weight.value == 0) result.value = a.value;

@@ -1,6 +1,6 @@
 #pragma once
 
-// How far a direction may go from another: freely at first, then slower and slower up to the limit.
+// Limits the angle between two directions: free at first, then slower and slower up to the limit.
 
 #include "chains/moving.h"
 
@@ -8,11 +8,11 @@
 
 namespace tweenfall::chains {
 
-/// `direction`, no farther than `limit` from `middle` (both unit, rad): free up to `ease` before the limit. What comes
-/// nearly opposite to the middle is let go of, so that nothing snaps from one side to the other.
+/// `direction`, no farther than `limit` from `middle` (both unit, rad): free up to `ease` before the limit. A direction
+/// nearly opposite the middle is released, so that nothing snaps from one side to the other.
 inline Arrow within_angle(const Arrow& direction, const Arrow& middle, double limit, double ease) noexcept {
   if (limit >= std::numbers::pi) return direction;
-  // What eases over less does so at once: nothing of it is seen, and nothing could be as fast.
+  // A smaller ease counts as none: it would be invisible, and its rates would be too large.
   constexpr double sharpest = 1e-9;  // rad
   const double eases = std::min(ease, limit), slow = eases < sharpest ? 0 : eases, free = limit - slow;
   const Measured side = measured(across(direction, middle));

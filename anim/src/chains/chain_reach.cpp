@@ -26,11 +26,11 @@ class FreeSolve {
   const std::size_t count_;
   const Arrow target_;
   ChainShape& shape_;
-  Turning first_[ChainShape::room];  // the turns that the pose has
+  Turning first_[ChainShape::room];  // the turns of the pose
 };
 
-// What no bending reaches: all bones along the line to the target, and where it is too near, all but the longest
-// backwards. @returns whether it was so
+// For targets out of reach: all bones along the line to the target or, where that is too near, all but the longest
+// backwards. @returns whether the target is out of reach
 bool FreeSolve::stretch() noexcept {
   const Measured way = measured(target_ - shape_.at(0));
   std::size_t longest = 0;
@@ -49,8 +49,8 @@ bool FreeSolve::stretch() noexcept {
   return true;
 }
 
-// Bones where they are, but by the shortest turns from the pose, as a stretch turns them: no twist is left that came on
-// the way, and none comes or goes at once where the target leaves what can be reached.
+// Keeps the bones where they are, but by the shortest turns from the pose, as `stretch` does: this removes the twist of
+// the sweeps, and none appears or vanishes suddenly where the target goes out of reach.
 void FreeSolve::untwist() noexcept {
   Arrow bones[ChainShape::room];
   for (std::size_t i = 0; i < count_; ++i) bones[i] = shape_.at(i + 1) - shape_.at(i);
@@ -67,7 +67,7 @@ void FreeSolve::reach_forward_and_backward() noexcept {
     wanted[i] = back.any ? wanted[i + 1] + shape_.length(i) * back.unit : wanted[i + 1];
   }
   for (std::size_t i = 0; i < count_; ++i) {
-    // The joint alone; the others follow when their turn comes.
+    // Only this joint; the others follow when it is their turn.
     shape_.turn(i, turned_towards(shape_.joint(i), shape_.turn(i), shape_.inside(i, shape_.bone(i)),
                                   shape_.inside(i, wanted[i + 1] - shape_.at(i))));
     shape_.place_one(i);
@@ -76,16 +76,16 @@ void FreeSolve::reach_forward_and_backward() noexcept {
 
 void FreeSolve::descend() noexcept {
   for (std::size_t i = count_; i-- > 0;) {
-    // Half way only: whole turns curl the end up, and differ much for targets that differ little.
+    // Only half way: full turns curl the end up, and differ much for targets that differ little.
     const Measured from = measured(shape_.end() - shape_.at(i)), to = measured(target_ - shape_.at(i));
     if (from.any && to.any) shape_.aim(i, from.unit, from.unit + to.unit);
   }
 }
 
-// One step of Levenberg and Marquardt: of all ways to turn that bring the end nearer, the one with the least turning.
-// The damping goes with the distance, so that steps near the target are Newton's.
-// Source: Fan and Yuan, "On the quadratic convergence of the Levenberg-Marquardt method without nonsingularity
-// assumption", 2005.
+// One Levenberg-Marquardt step: of all ways to bring the end nearer, the one that turns the joints least.
+// The damping is proportional to the distance, so steps near the target are Newton steps. Source: Fan and
+// Yuan, "On the quadratic convergence of the Levenberg-Marquardt method without nonsingularity assumption",
+// 2005.
 void FreeSolve::step(double caution) noexcept {
   constexpr double damping = 0.1, widest = 0.5;
   const Arrow missing = target_ - shape_.end();
@@ -124,10 +124,10 @@ void FreeSolve::step(double caution) noexcept {
 bool FreeSolve::refine() noexcept {
   constexpr double there = 1e-13;  // of the chain's length
   const double reach = shape_.reach().v;
-  // Far from what can be reached a step may lead away: then it is taken anew with more damping.
+  // For targets far out of reach a step may lead away: then it is repeated with more damping.
   double caution = 1;
   Dual missing = distance();
-  int idle = 0;  // steps that did next to nothing
+  int idle = 0;  // steps that changed almost nothing
   for (int i = 0; i < 120; ++i) {
     const bool near = missing.v <= there * reach;
     Turning before[ChainShape::room];
@@ -158,7 +158,7 @@ void FreeSolve::run() noexcept {
       reach_forward_and_backward();
     else
       descend();
-  // Long chains that have to turn over need more than one go, and reaching forward and backward uncurls them.
+  // Long chains that have to turn over need several attempts, and reaching forward and backward uncurls them.
   bool there = refine();
   for (int more = 0; !there && more < 8; ++more) {
     for (int i = 0; i < 8; ++i) reach_forward_and_backward();

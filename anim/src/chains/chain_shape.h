@@ -1,6 +1,6 @@
 #pragma once
 
-// A chain in one pose, as it is turned: in the space of the first joint's parent.
+// A chain in one pose, while it is being turned, in the space of the first joint's parent.
 
 #include "chains/joint_limits.h"
 
@@ -10,7 +10,7 @@ class ChainShape {
  public:
   static constexpr std::size_t room = JointChain::most_joints;
 
-  /// The chain as the pose has it, brought within its limits.
+  /// The chain in the given pose, brought within its limits.
   ChainShape(const JointChain& chain, std::span<const Motion> pose) noexcept;
 
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
@@ -20,36 +20,37 @@ class ChainShape {
   [[nodiscard]] const Arrow& end() const noexcept { return at_[count_]; }
   [[nodiscard]] Arrow bone(std::size_t i) const noexcept { return own_[i] * bone_[i]; }
   [[nodiscard]] const Dual& length(std::size_t i) const noexcept { return length_[i]; }
-  /// All bones in a row.
+  /// The sum of the bones' lengths.
   [[nodiscard]] const Dual& reach() const noexcept { return reach_; }
 
   /// How a joint is turned from rest, in the axes of its rest pose.
   [[nodiscard]] const Turning& turn(std::size_t i) const noexcept { return turn_[i]; }
   /// The rotation of a joint, in the axes of its parent.
   [[nodiscard]] Turning local(std::size_t i) const noexcept { return fixed_[i] * turn_[i]; }
-  /// A direction of the space in which all stand, in the axes in which the joint's turn is told; and back.
+  /// Converts a direction from the common space to the axes of the joint's turn, and back.
   [[nodiscard]] Arrow inside(std::size_t i, const Arrow& a) const noexcept { return inverse(outer_[i]) * a; }
   [[nodiscard]] Arrow outside(std::size_t i, const Arrow& a) const noexcept { return outer_[i] * a; }
 
   /// Turns one joint and moves nothing; `place` follows.
   void turn(std::size_t i, const Turning& turn) noexcept { turn_[i] = turn; }
-  /// Places the joint `i` alone, and the next one's axes and place.
+  /// Places only joint `i`, and the next one's axes and position.
   void place_one(std::size_t i) noexcept;
   /// Places all from `from` on.
   void place(std::size_t from = 0) noexcept;
-  /// Turns a joint so that the direction `from` comes towards `to`, as far as its limits let it; what it carries moves.
+  /// Turns a joint so that the direction `from` comes towards `to`, as far as its limits allow; all that it carries
+  /// moves.
   void aim(std::size_t i, const Arrow& from, const Arrow& to) noexcept;
 
  private:
   const JointChain* chain_;
   std::size_t count_;
   Dual reach_;
-  Arrow bone_[room];  // to the next joint, in the joint's own axes, at its size
+  Arrow bone_[room];  // to the next joint, in the joint's own axes, scaled
   Dual length_[room];
   Turning between_[room];            // from the own axes of the joint before to those of the parent
   Turning fixed_[room];              // rest rotation
   Turning turn_[room];               // from rest, in the axes of the rest pose
-  Turning outer_[room], own_[room];  // of the rest pose and of the joint, in the space in which all stand
+  Turning outer_[room], own_[room];  // of the rest pose and of the joint, in the common space
   Arrow at_[room + 1];               // joints and the end
 };
 

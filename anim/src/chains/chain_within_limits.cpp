@@ -1,8 +1,8 @@
 #include "chains/chain_solve.h"
 
-// Why nothing flips: every step is a continuous function of the pose and the target, and so are many of them one after
-// the other. What is not continuous is left out: trying a step and taking it back, keeping the better of two answers,
-// joints that are held once they have met a limit.
+// Why nothing flips: every step is a continuous function of the pose and the target, and so is a sequence of steps.
+// Methods that are not continuous are avoided: undoing a step that did not help, keeping the better of two results,
+// locking joints that have met a limit.
 
 namespace tweenfall::chains {
 namespace {
@@ -10,13 +10,13 @@ namespace {
 constexpr double widest = 0.5;   // rad, that a joint turns in one step
 constexpr double there = 1e-13;  // of the chain's length
 
-// What can be turned, and how far.
+// The degrees of freedom of the joints, and their ranges.
 struct Ways {
   struct Way {
     std::size_t joint;
     Arrow axis;    // in the axes of the joint's rest pose
     Arrow column;  // how the end moves with it, m/rad
-    Dual ease;     // how readily it turns; 1 or more
+    Dual ease;     // how easily it turns; 1 or more
     Dual low, high;
   };
   std::size_t count = 0;
@@ -30,8 +30,9 @@ Dual turned(const Ways::Way& way, const Arrow& pull) noexcept {
   return turn.v <= way.low.v ? way.low : turn.v >= way.high.v ? way.high : turn;
 }
 
-// The pull under which all turn so far that  damping pull  is what is left of `missing`. What is left less that is the
-// slope of a strictly concave function: there is one such pull, and Newton's method along lines finds it.
+// The pull under which the joints turn until the remainder of `missing` equals damping * pull. Their difference is the
+// gradient of a strictly concave function, so there is exactly one such pull, and Newton's method with line search
+// finds it.
 Arrow pull_of(const Ways& ways, const Dual& damping, const Arrow& missing) noexcept {
   Mat3 slope;
   const auto left = [&](const Vec3& pull, bool sloped) {
@@ -90,13 +91,13 @@ class LimitedSolve {
   const std::size_t count_;
   const Arrow target_;
   ChainShape& shape_;
-  Dual curvature_;  // by how much at most a direction of the end's motion changes as all joints turn, m
+  Dual curvature_;  // bound on the change of the end's motion as all joints turn, m
   Dual ease_[ChainShape::room];
-  Ways ways_;  // those of a step: here, since to make them anew takes longer than the step
+  Ways ways_;  // of the current step; kept because constructing them takes longer than the step
 };
 
-// The second derivative of the end's place by the turns of two joints is no longer than the bones from the later one
-// on. The sum over all others is what a joint's turn can bend the way of the end at most (Gershgorin).
+// The second derivative of the end's position by the turns of two joints is no longer than the bones from the later one
+// on. The sum over all others bounds how much a joint's turn can bend the path of the end (Gershgorin).
 LimitedSolve::LimitedSolve(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept
     : chain_(chain), count_(shape.count()), target_(target), shape_(shape) {
   Dual bones, sum, own[ChainShape::room];
@@ -110,9 +111,9 @@ LimitedSolve::LimitedSolve(const JointChain& chain, const Arrow& target, ChainSh
     ease_[i] = chain.method() == ChainMethod::fabrik || !(own[i].v > 0) ? Dual(1) : own[0] / own[i];
 }
 
-// One step of Levenberg and Marquardt within the limits: of all ways to turn that bring the end nearer, that with the
-// least turning. It is damped by as much as the way of the end can bend, which goes with what is missing: far from the
-// target it always leads nearer, and near to it it is Newton's.
+// One Levenberg-Marquardt step within the limits: of all ways to bring the end nearer, the one that turns the joints
+// least. It is damped by as much as the path of the end can bend, in proportion to the remaining distance: far from the
+// target it always leads nearer, and close to it it is a Newton step.
 // @returns the largest turn, rad
 double LimitedSolve::step(const Arrow& target) noexcept {
   const Arrow missing = target - shape_.end();
@@ -130,7 +131,7 @@ double LimitedSolve::step(const Arrow& target) noexcept {
                                   .high = way.high.v > widest ? Dual(widest) : way.high};
     }
   }
-  // So little that it matters to nothing, and the pull stays a number where nothing is free to turn.
+  // Too small to matter; keeps the pull finite where nothing is free to turn.
   const Dual least = 1e-14 * shape_.reach() * shape_.reach();
   const Arrow pull = pull_of(ways_, length(missing) * curvature_ + least, missing);
   double largest = 0;
@@ -147,7 +148,7 @@ double LimitedSolve::step(const Arrow& target) noexcept {
   return largest;
 }
 
-// Towards the middle of the limits, the more the farther the target is: from there all joints have room to turn.
+// Moves towards the middle of the limits, more for farther targets: from there all joints have room to turn.
 void LimitedSolve::move_off() noexcept {
   constexpr double half_way = 0.1;  // of the chain's length
   const Dual missing = distance(), square = missing * missing, reach = half_way * shape_.reach();
@@ -165,7 +166,7 @@ void LimitedSolve::track() noexcept {
   constexpr int most = 100;
   constexpr double still = 1e-12;  // rad
   const Arrow from = shape_.end();
-  // As far away as the chain reaches: what is farther leads no other way.
+  // Clamped to the reach of the chain: a farther target in the same direction has the same result.
   const Measured way = measured(target_ - shape_.at(0));
   const Arrow to = way.length.v > shape_.reach().v ? shape_.at(0) + shape_.reach() * way.unit : target_;
   for (int i = 1; i < chain_.sweeps(); ++i) step(from + Dual(static_cast<double>(i) / chain_.sweeps()) * (to - from));
@@ -175,11 +176,11 @@ void LimitedSolve::track() noexcept {
   }
 }
 
-// Joints at other places within their limits, the same for every solve.
+// Sets the joints to other poses within their limits, the same ones in every solve.
 void LimitedSolve::start_over(int number) noexcept {
   for (std::size_t i = 0; i < count_; ++i) {
     const JointChain::Joint& joint = shape_.joint(i);
-    // Even spread over the ranges. Source: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+    // Spread evenly over the ranges. Source: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
     constexpr double steps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
     double at[3];
     for (int k = 0; k < 3; ++k) {

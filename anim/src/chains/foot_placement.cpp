@@ -8,9 +8,9 @@ namespace tweenfall {
 namespace chains {
 namespace {
 
-constexpr double steepest = 0.1;  // of the normal along up
+constexpr double steepest = 0.1;  // least part of the normal along up
 
-// What a foot is to do: how much higher the ground is than the floor, and how its sole is to lie.
+// The goal of a foot: how much higher the ground is than the floor, and the orientation of its sole.
 struct Step {
   Arrow ankle;       // by the script
   Turning rotation;  // by the script
@@ -36,7 +36,7 @@ Step step_of(const FootPlacement& placement, std::size_t foot, const GroundAt& g
   const Measured normal = measured({below->normal, below->normal_rate});
   const double steepness = normal.unit.v.dot(up);
   if (!normal.any || !(steepness > steepest)) return step;
-  // The ground is a plane across its normal: that says how its height changes below a foot that moves.
+  // The ground is the plane perpendicular to its normal, which gives the change of its height below a moving foot.
   const Vec3 sideways = step.ankle.d - step.ankle.d.dot(up) * up;
   const Dual height(below->height, below->height_rate - normal.unit.v.dot(sideways) / steepness);
   step.rise = weight * (height - floor);
@@ -46,14 +46,14 @@ Step step_of(const FootPlacement& placement, std::size_t foot, const GroundAt& g
   return step;
 }
 
-// To where the lowest foot lets the pelvis go.
+// The height that the lowest foot allows the pelvis.
 Dual lowest_of(std::span<const Step> steps, double evenness) noexcept {
   Dual lowest = steps.front().rise;
   for (const Step& step : steps)
     if (step.rise.v < lowest.v) lowest = step.rise;
-  constexpr double least = 1e-9;  // m; of less nothing is seen, and nothing could be as fast
+  constexpr double least = 1e-9;  // m; smaller ones would be invisible, with rates too large
   if (!(evenness > least)) return lowest;
-  // The mean of exp(-rise / evenness), taken from the lowest on so that nothing overflows.
+  // The mean of exp(-rise / evenness), relative to the lowest so that nothing overflows.
   Dual mean;
   for (const Step& step : steps) mean = mean + exponential((lowest - step.rise) / Dual(evenness));
   mean = mean / Dual(static_cast<double>(steps.size()));

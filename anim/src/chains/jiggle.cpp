@@ -9,7 +9,7 @@ namespace tweenfall {
 namespace chains {
 namespace {
 
-// The joints of a chain in one pose, one after the other: where each is, carried by those before it that swing.
+// Walks along the joints of a chain in one pose: the position of each, carried by the swinging joints before it.
 class Walk {
  public:
   Walk(const JiggleChain& chain, std::span<const Motion> pose) noexcept
@@ -18,11 +18,12 @@ class Walk {
   }
 
   [[nodiscard]] const Arrow& joint() const noexcept { return joint_; }
-  [[nodiscard]] const Arrow& tail() const noexcept { return tail_; }  ///< where the script has it
+  [[nodiscard]] const Arrow& tail() const noexcept { return tail_; }  ///< its place in the script
   /// The rotation of the joint's parent.
   [[nodiscard]] Turning outer() const noexcept { return rotation_of(carrier_); }
 
-  /// The joint with its tail in the direction of `tail_ + offset`. @returns its own rotation, told in its parent's axes
+  /// Turns the joint so that its tail is in the direction of `tail_ + offset`. @returns its own rotation, in its
+  /// parent's axes
   Turning swing(const Arrow& offset) noexcept {
     const Measured arm = measured(tail_ - joint_), away = measured(tail_ + offset - joint_);
     Turning swung = rotation_of(here_);
@@ -36,7 +37,7 @@ class Walk {
     return local;
   }
 
-  /// On to the next joint.
+  /// Goes on to the next joint.
   void go_on() noexcept {
     const std::size_t before = chain_.joints()[number_], now = chain_.joints()[++number_];
     carrier_ = here_;
@@ -64,22 +65,23 @@ class Walk {
   Arrow joint_, tail_;
 };
 
-// The offset of a tail that is brought back to its distance from the joint, keeping its direction and the rate of that.
+// The offset of a tail after it is moved to its distance from the joint, keeping its direction and the rate of that.
 Arrow held(const Arrow& offset, const Walk& walk) noexcept {
   const Measured arm = measured(walk.tail() - walk.joint()), away = measured(walk.tail() + offset - walk.joint());
   if (!arm.any || !away.any) return {};
   return walk.joint() + arm.length * away.unit - walk.tail();
 }
 
-// What the bone does to the tail within a step: it holds it at its distance, which takes the outward part of all other
-// accelerations and the turning's own, as they are when the step begins. What is left of the distance's error `held`
-// mends; without this it would be of first order, and damp what swings under gravity.
+// The effect of the bone on the tail within a step: it holds the tail at its distance, which cancels the outward part
+// of all other accelerations, and the centrifugal one, with their values at the start of the step. `held` corrects the
+// remaining error of the distance; without this function that error would be of first order, and would damp a swing
+// under gravity.
 void pull_back(Forcing& push, const SpringFollower& spring, const Walk& before, const Walk& after,
                const Arrow& offset) noexcept {
   const SpringSettings& settings = spring.settings();
   const double w = 2 * std::numbers::pi * settings.hz, drag = 2 * settings.damping * w;
   const double h = 1 / settings.steps_per_second;
-  // A stiff spring is home before the step ends: what held at its beginning does not hold on.
+  // A stiff spring comes to rest before the step ends: the values at its start do not apply to all of it.
   if (drag * h + w * h > 1) return;
   const Arrow &joint = before.joint(), &later = after.joint();
   const Measured away = measured(before.tail() + offset - joint);
@@ -115,7 +117,7 @@ JiggleState JiggleState::from_bytes(std::span<const std::byte> bytes) {
   const std::size_t count = (bytes.size() - 16) / 48;
   const std::int64_t told = in.number();
   if (told != static_cast<std::int64_t>(count))
-    throw std::invalid_argument("jiggle state: it is told to have " + std::to_string(told) + " joints and has " +
+    throw std::invalid_argument("jiggle state: it says that it has " + std::to_string(told) + " joints and has " +
                                 std::to_string(count));
   state.offsets.reserve(count);
   state.rates.reserve(count);
@@ -157,7 +159,7 @@ JiggleState JiggleChain::at_rest(double time) const {
 namespace chains {
 namespace {
 
-// A chain on its way: at a point of the grid, and then at a time after it.
+// A chain in motion: at a point of the grid, and then at a time after it.
 class Swinging {
  public:
   Swinging(const JiggleChain& chain, JiggleState& state, const PoseAt& pose_at, std::span<Motion> scratch) noexcept
@@ -167,7 +169,7 @@ class Swinging {
         from_(scratch.first(chain.nodes().size())),
         to_(scratch.subspan(chain.nodes().size())) {}
 
-  /// To the last point of the grid up to `time`.
+  /// Advances to the last point of the grid up to `time`.
   void go_to(double time) noexcept {
     const SpringFollower& spring = chain_.spring();
     const std::size_t count = chain_.joints().size();
@@ -200,15 +202,15 @@ class Swinging {
     });
   }
 
-  /// Calls `visit(joint, offset)` in order with where each tail is at `time`, seen from where the script has it, those
-  /// before having swung.
+  /// Calls `visit(joint, offset)` in order with the offset of each tail at `time` from its place in the script, after
+  /// the joints before it have swung.
   template <class Visit>
   void at(double time, const Visit& visit) noexcept {
     const SpringFollower& spring = chain_.spring();
     const std::size_t count = chain_.joints().size();
     const double seconds = seconds_into(spring, state_.step, time);
     if (seconds == 0) {
-      // At a point of the grid what comes next does not matter yet.
+      // At a point of the grid the next step does not matter yet.
       for (std::size_t i = 0; i < count; ++i) visit(i, Arrow{state_.offsets[i], state_.rates[i]});
       return;
     }

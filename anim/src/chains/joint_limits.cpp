@@ -81,7 +81,7 @@ Freedom freedom_of(const JointChain::Joint& joint, const Turning& turn) noexcept
     for (int i = 0; i < 3; ++i) freedom.ways[i] = {{Vec3::Unit(i), still}, Dual(-anywhere), Dual(anywhere)};
     return freedom;
   }
-  // A turn about the normal of rest and bone swings alone, one about their sum twists alone.
+  // A turn about the normal of rest and bone is pure swing, one about their sum pure twist.
   // Source: differential of the swing-twist decomposition; twist' = w . (rest + bone) / (1 + rest . bone).
   const Arrow rest{joint.bone, still}, bone = turn * rest;
   const Measured normal = measured(cross(rest, bone));
@@ -102,7 +102,7 @@ Turning turned_towards(const JointChain::Joint& joint, const Turning& turn, cons
   if (const auto* hinge = std::get_if<HingeLimit>(&joint.limit)) {
     const Arrow axis{hinge->axis, Vec3(0, 0, 0)};
     const Arrow a = across(from, axis), b = across(to, axis);
-    // What lies along the axis tells no angle.
+    // A direction along the axis does not define an angle.
     if (a.v.squaredNorm() < 1e-20 * from.v.squaredNorm() || b.v.squaredNorm() < 1e-20 * to.v.squaredNorm()) return turn;
     return within_limits(joint, about(hinge->axis, angle_of(dot(axis, cross(a, b)), dot(a, b))) * turn);
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the limits of a joint let it do.
+// What the limits of a joint allow.
 
 #include <tweenfall/anim/joint_chain.h>
 
@@ -11,10 +11,10 @@ namespace tweenfall::chains {
 /// The nearest rotation that the limit allows. @param turn  from the joint's rest pose, in the axes of that
 [[nodiscard]] Turning within_limits(const JointChain::Joint& joint, const Turning& turn) noexcept;
 
-/// The middle of what the limit allows; of a joint without one, its `turn`.
+/// The middle of the range of the limit; for a joint without a limit, `turn`.
 [[nodiscard]] Turning middle_of(const JointChain::Joint& joint, const Turning& turn) noexcept;
 
-/// The directions about which a joint can turn on from where it is, and how far its limit lets it.
+/// The axes about which a joint can turn from where it is, and how far its limit allows.
 struct Freedom {
   struct Way {
     Arrow axis;      ///< unit, at right angles to the others, in the axes of the joint's rest pose
@@ -25,7 +25,7 @@ struct Freedom {
 };
 [[nodiscard]] Freedom freedom_of(const JointChain::Joint& joint, const Turning& turn) noexcept;
 
-/// A turn of the joint that brings the direction `from` towards `to`, as far as its limits let it.
+/// A turn of the joint that brings the direction `from` towards `to`, as far as its limits allow.
 [[nodiscard]] Turning turned_towards(const JointChain::Joint& joint, const Turning& turn, const Arrow& from,
                                      const Arrow& to) noexcept;
 

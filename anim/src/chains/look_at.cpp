@@ -8,7 +8,7 @@ namespace tweenfall {
 namespace chains {
 namespace {
 
-// Who looks, seen from the joint that turns: the eye, where it looks, and what is up.
+// The line of sight relative to the joint that turns: the eye, the direction of sight, and the up direction.
 struct Sight {
   Arrow eye, forward, up;
 };
@@ -23,9 +23,9 @@ Turning aimed(const Sight& sight, const Measured& to) noexcept {
   return arc(start, to.unit, any_across(start.v));
 }
 
-// The turn about `axis`, the line to the target, that brings what is up for the eye into the plane of the line of sight
-// and the `wanted` up; less of it where that is nearly along the axis. What is to the side of the eye must come to lie
-// across the wanted up, on a cone about the axis.
+// The turn about `axis`, the line to the target, that brings the eye's up direction into the plane of the line of sight
+// and the `wanted` up; reduced where that is nearly along the axis. The sideways direction of the eye, which turns on a
+// cone about the axis, must become perpendicular to the wanted up.
 Turning rolled(const Arrow& axis, const Sight& sight, const Arrow& wanted) noexcept {
   constexpr double fade = 0.05;
   const Dual height = length(across(wanted, axis));
@@ -101,7 +101,7 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
   const Arrow target = before.eye + way.length * within_angle(way.unit, before.forward, chain.limit(), chain.ease());
   const Arrow up = goal.up ? inward.direction(arrow(*goal.up)) : Arrow{};
 
-  Motion carrier;  // of the joint, in the space in which the chain stands
+  Motion carrier;  // of the joint, in the space of the chain
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const std::size_t node = joints[i].node;
     if (i > 0 && nodes[node].parent != joints[i - 1].node)

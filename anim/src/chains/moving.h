@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers, vectors and rotations that move: each with its rate, so that what is computed from them has its exact rate.
+// Numbers, vectors and rotations that move: each with its rate, so that results computed from them have exact rates.
 
 #include <tweenfall/anim/hierarchy.h>
 #include <tweenfall/curves/elementary.h>
@@ -11,7 +11,7 @@
 #include <concepts>
 #include <type_traits>
 
-// Small functions are inlined always: a solve is a few hundred operations, and calls would take half of its time.
+// Small functions are always inlined: a solve is a few hundred operations, and calls would take half of its time.
 
 namespace tweenfall::chains {
 
@@ -45,7 +45,7 @@ struct Dual {
 [[gnu::always_inline]] inline Dual operator*(double a, const Dual& b) noexcept {
   return {a * b.v, a * b.d};
 }
-/// 0 at rest for what is not positive.
+/// Square root; 0 at rest for numbers that are not positive.
 [[gnu::always_inline]] inline Dual root(const Dual& a) noexcept {
   if (!(a.v > 0)) return {};
   const double r = std::sqrt(a.v);
@@ -59,7 +59,7 @@ inline Dual angle_of(const Dual& y, const Dual& x) noexcept {
   const double square = x.v * x.v + y.v * y.v;
   return {elementary::atan2(y.v, x.v), square > 0 ? (x.v * y.d - y.v * x.d) / square : 0};
 }
-/// From 0 at x <= 0 to 1 at x >= 1, with no rate at either.
+/// From 0 at x <= 0 to 1 at x >= 1, with a slope of 0 at both.
 inline Dual smooth_step(const Dual& x) noexcept {
   if (!(x.v > 0)) return {};
   if (x.v >= 1) return {1};
@@ -102,7 +102,7 @@ struct Arrow {
 [[gnu::always_inline]] inline Arrow unit(const Arrow& a) noexcept {
   return unit(a, length(a));
 }
-// Vectors that stand still take part without rates, where that saves time.
+// Vectors at rest are used without rates, where that saves time.
 template <std::same_as<Dual> Number>
 [[gnu::always_inline]] inline Arrow operator*(const Number& s, const Vec3& a) noexcept {
   return {s.v * a, s.d * a};
@@ -125,7 +125,7 @@ struct Measured {
   const double rate = u.dot(a.d);
   return {{u, i * (a.d - rate * u)}, {l, rate}, true};
 }
-/// The part of `a` across the unit vector `along`.
+/// The part of `a` perpendicular to the unit vector `along`.
 [[gnu::always_inline]] inline Arrow across(const Arrow& a, const Arrow& along) noexcept {
   return a - dot(a, along) * along;
 }
@@ -133,7 +133,7 @@ struct Measured {
   return {a.v.cwiseProduct(b.v), a.d.cwiseProduct(b.v) + a.v.cwiseProduct(b.d)};
 }
 
-/// A unit vector across the unit vector `u`, at rest.
+/// A unit vector perpendicular to the unit vector `u`, at rest.
 inline Vec3 any_across(const Vec3& u) noexcept {
   const double x = std::abs(u.x()), y = std::abs(u.y()), z = std::abs(u.z());
   const Vec3 least = x <= y && x <= z ? Vec3(1, 0, 0) : y <= z ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
@@ -169,8 +169,8 @@ inline Arrow log_turn(const Turning& q) noexcept {
   return {r, right_jacobian_inverse(-r) * q.w};
 }
 
-/// The shortest rotation from unit `u` to unit `v`; where they are opposite, by half a turn about `axis`, a unit
-/// vector across them. With x = u x v and c = u . v, the quaternion is along (1 + c, x).
+/// The shortest rotation from unit `u` to unit `v`; where they are opposite, by half a turn about `axis`, a unit vector
+/// perpendicular to them. With x = u x v and c = u . v, the quaternion is along (1 + c, x).
 [[gnu::always_inline]] inline Turning arc(const Arrow& u, const Arrow& v, const Vec3& axis) noexcept {
   const Arrow x = cross(u, v);
   const Dual c = dot(u, v);
@@ -183,7 +183,7 @@ inline Arrow log_turn(const Turning& q) noexcept {
   return turn;
 }
 
-/// Three unit vectors at right angles to each other, of a kind that moves or stands still.
+/// Three unit vectors at right angles to each other, of a type that moves or is at rest.
 template <class Vector>
 struct Axes {
   Vector x, y, z;
@@ -253,12 +253,12 @@ template <class Vector>
   motion.twist.angular = blended.w;
 }
 
-/// No weight, and none on its way.
+/// Whether the weight is 0 and stays so.
 inline bool is_nothing(const Sample<double>& weight) noexcept {
   return weight.value == 0 && weight.rate == 0;
 }
 
-/// The way from the world into a node's own space: of points and of directions.
+/// Converts points and directions from the world into a node's own space.
 class Inward {
  public:
   /// @param world  which must outlive it
@@ -276,7 +276,7 @@ class Inward {
 
   explicit Inward(const WorldMotion&&) = delete;
 
-  /// Whether the space has no inside, for it is flattened or shrunk to nothing.
+  /// Whether the space cannot be inverted, because a scale is 0.
   [[nodiscard]] bool flat() const noexcept { return flat_; }
 
   [[gnu::always_inline, nodiscard]] Arrow point(const Arrow& world) const noexcept {
@@ -294,11 +294,11 @@ class Inward {
 
   const WorldMotion& world_;
   double inverse_;  // of the matrix's determinant
-  Vec3 back_[3];    // rows of its inverse, that many times as long
+  Vec3 back_[3];    // rows of its inverse, multiplied by the determinant
   bool flat_;
 };
 
-/// Where the parent of a node is; the world itself for a root.
+/// World motion of the parent of a node; the identity for a root.
 inline WorldMotion above(const Hierarchy& nodes, std::size_t node, std::span<const Motion> pose) noexcept {
   const std::size_t parent = nodes[node].parent;
   if (parent == no_node) return {};

@@ -36,12 +36,12 @@ NodeSpringState NodeSpring::at_rest(double time) const noexcept {
 namespace chains {
 namespace {
 
-/// How far the springs are from where the script has their node.
+/// The offsets of the springs from the node in the script.
 struct Away {
   Arrow place, turn;
 };
 
-// Where the script has the node, of late: at a point of the grid and the next, for both springs.
+// Caches the script's motion of the node: at a point of the grid and the next, for both springs.
 class Script {
  public:
   Script(const NodeSpring& spring, const PoseAt& pose_at, std::span<Motion> scratch) noexcept
@@ -87,7 +87,7 @@ Away away_at(const NodeSpring& spring, NodeSpringState& state, double time, cons
     return forcing(Arrow{none, from.twist.angular}, Arrow{way, to.twist.angular},
                    1 / spring.rotation()->settings().steps_per_second, none);
   };
-  // Both go hand in hand, so that the script is asked for each point once.
+  // Both advance together, so that the script is sampled once for each point.
   if (spring.position() && spring.rotation()) {
     constexpr std::int64_t most = 1'000'000;
     const std::int64_t last = spring.position()->step_at(time);
@@ -101,7 +101,7 @@ Away away_at(const NodeSpring& spring, NodeSpringState& state, double time, cons
   }
   const auto offset = [&](const SpringFollower& follower, SpringState& of, const auto& forcing) {
     bring_to(follower, of, time, world_at, forcing);
-    // At a point of the grid what comes next does not matter yet.
+    // At a point of the grid the next step does not matter yet.
     if (seconds_into(follower, of.step, time) == 0) return Arrow{of.offset, of.rate};
     return offset_at(follower, of, time, world_at, forcing);
   };

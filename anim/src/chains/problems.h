@@ -1,6 +1,6 @@
 #pragma once
 
-// What is wrong with a chain, gathered while it is read, and told all at once.
+// Collects the faults of a chain while it is read, to report them all at once.
 
 #include <tweenfall/anim/node_ref.h>
 
@@ -14,20 +14,20 @@ namespace tweenfall::chains {
 
 class Problems {
  public:
-  /// @param what  of which all the problems are, such as "two-bone chain"
+  /// @param what the thing checked, such as "two-bone chain"
   explicit Problems(std::string what) : what_(std::move(what)) {}
 
   void add(const std::string& problem);
   /// Adds the problem unless it `holds`. @returns holds
   bool require(bool holds, const std::string& problem);
-  /// The node; `no_node`, and a problem with the nearest name, where there is none. @param role  such as "start"
+  /// The node; if there is none, `no_node`, and a problem with the nearest name is added. @param role  such as "start"
   [[nodiscard]] std::size_t node(const Hierarchy& nodes, const NodeRef& told, const std::string& role);
   void require_finite(const Vec3& v, const std::string& name);
   void require_in(double number, double low, double high, const std::string& name);
 
-  /// The nodes in order, each below the one before. @returns of each its number or `no_node`
+  /// The nodes in order, each below the one before. @returns for each its number or `no_node`
   [[nodiscard]] std::vector<std::size_t> chain(const Hierarchy& nodes, std::span<const NodeRef> told);
-  /// The problems that `make` throws, each behind `whose`.
+  /// Adds the problems that `make` throws, each prefixed by `whose`.
   template <class Make>
   void include(const Make& make, const std::string& whose) {
     try {
@@ -47,10 +47,10 @@ class Problems {
   std::string what_, text_;
 };
 
-/// How people know a node: by its name, where it has one.
+/// A node as shown to people: by its name, if it has one.
 [[nodiscard]] std::string called(const Hierarchy& nodes, const NodeRef& told);
 
-/// What lengths and places are at most: squares of more, and what is made of them, would be no numbers.
+/// Bound on lengths and positions: beyond it, squares and results computed from them would overflow.
 inline constexpr double largest = 1e15;
 
 /// Whether `node` is below `above`, at any depth, and not the same.

@@ -11,7 +11,8 @@ namespace tweenfall {
 namespace chains {
 namespace {
 
-// By the power series, which converges quickly while the product of rates and seconds is small, and does not cancel.
+// The solution by power series, which converges quickly while the product of rates and seconds is small, without
+// cancellation.
 struct Series {
   double square, drag, s;  // w^2, 2 z w, seconds
 
@@ -30,8 +31,9 @@ struct Series {
   }
 };
 
-// exp of a vector that moves. With x = |r|^2, b = (1 - cos |r|) / x and c = (1 - sin |r| / |r|) / x, it turns with
-// r' + b r x r' + c r x (r x r'): the left Jacobian of right_jacobian's source; the rest is its derivative.
+// exp of a moving vector. With x = |r|^2, b = (1 - cos |r|) / x and c = (1 - sin |r| / |r|) / x, it turns with
+// r' + b r x r' + c r x (r x r'): the left Jacobian, from the source of `right_jacobian`; the acceleration is its
+// derivative.
 Sample<Quat> exponential(const Sample<Vec3>& r) noexcept {
   const double x = r.value.squaredNorm(), x_rate = 2 * r.value.dot(r.rate);
   double b = 0, c = 0, b_slope = 0, c_slope = 0;
@@ -55,7 +57,7 @@ Sample<Quat> exponential(const Sample<Vec3>& r) noexcept {
   return result;
 }
 
-// Of an offset, by the spring's own equation.
+// Acceleration of an offset, by the spring's equation.
 Vec3 acceleration_of(const SpringFollower& spring, const Arrow& offset, const Forcing& driven, double s) noexcept {
   const double w = 2 * std::numbers::pi * spring.settings().hz;
   const Vec3 push = driven.parts[0] + s * (driven.parts[1] + s * (driven.parts[2] + s * driven.parts[3]));
@@ -103,7 +105,7 @@ std::int64_t SpringFollower::step_at(double time) const noexcept {
   const double point = std::floor(time * settings_.steps_per_second);
   std::int64_t step = static_cast<std::int64_t>(std::clamp(point, -most, most));
   if (!(point == point)) return 0;
-  // The product is rounded; the points themselves decide.
+  // The product is rounded, so compare with the points themselves.
   if (time_of(step) > time) --step;
   if (time_of(step + 1) <= time && step < static_cast<std::int64_t>(most)) ++step;
   return step;
@@ -124,7 +126,7 @@ SpringShares SpringFollower::shares(double s) const noexcept {
   shares.offset_in_rate = -w * response.struck;
   shares.rate = response.struck / w;
   shares.rate_in_rate = response.displaced - 2 * z * response.struck;
-  // What s^j drives is j times the integral of what s^(j-1) drives: put into the equation, that gives its value.
+  // The response to s^j is j times the integral of the response to s^(j-1); the spring's equation then gives its value.
   shares.forced[0] = (1 - shares.offset) / square;
   shares.forced_in_rate[0] = shares.rate;
   double power = 1;

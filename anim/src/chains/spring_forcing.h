@@ -1,6 +1,6 @@
 #pragma once
 
-// How a spring is driven by its target within a step, and where it is then.
+// How a spring is driven by its target within a step, and the resulting state.
 
 #include <tweenfall/anim/spring.h>
 
@@ -15,7 +15,7 @@ struct Forcing {
   Vec3 parts[4] = {Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
 };
 
-/// `gravity` less the acceleration of the cubic that goes by `from` and `to` in `h` seconds.
+/// `gravity` minus the acceleration of the cubic from `from` to `to` in `h` seconds.
 inline Forcing forcing(const Arrow& from, const Arrow& to, double h, const Vec3& gravity) noexcept {
   const Vec3 p = to.v - from.v - h * from.d, q = to.d - from.d;
   Forcing forcing;
@@ -24,7 +24,7 @@ inline Forcing forcing(const Arrow& from, const Arrow& to, double h, const Vec3&
   return forcing;
 }
 
-/// The same of the quintic that has their accelerations too.
+/// The same for the quintic that has their accelerations too.
 inline Forcing forcing(const Sample<Vec3>& from, const Sample<Vec3>& to, double h, const Vec3& gravity) noexcept {
   const Vec3 p = to.value - from.value - h * from.rate - (0.5 * h * h) * from.acceleration,
              q = to.rate - from.rate - h * from.acceleration, r = to.acceleration - from.acceleration;
@@ -37,7 +37,7 @@ inline Forcing forcing(const Sample<Vec3>& from, const Sample<Vec3>& to, double 
   return forcing;
 }
 
-/// An offset and its rate, carried on.
+/// An offset and its rate after a time, by its shares.
 inline Arrow carried(const SpringShares& shares, const Arrow& offset, const Forcing& forcing) noexcept {
   Arrow result{shares.offset * offset.v + shares.rate * offset.d,
                shares.offset_in_rate * offset.v + shares.rate_in_rate * offset.d};
@@ -48,8 +48,8 @@ inline Arrow carried(const SpringShares& shares, const Arrow& offset, const Forc
   return result;
 }
 
-/// Brings a state to the last point of the grid up to `time`: step by step, or at rest where its point lies behind that
-/// or too far ahead. @param advance  called with the number of the point from which it goes on by one
+/// Advances a state to the last point of the grid up to `time`: step by step, or by a reset to rest where its point is
+/// later or too long ago. @param advance called with the number of the point from which it advances by one
 template <class Rest, class Advance>
 void advance_to(const SpringFollower& spring, std::int64_t& step, double time, const Rest& rest,
                 const Advance& advance) noexcept {
@@ -62,13 +62,13 @@ void advance_to(const SpringFollower& spring, std::int64_t& step, double time, c
   for (; step < last; ++step) advance(step);
 }
 
-/// Since the point of the grid; no more than a step, at times too great to tell.
+/// Seconds since the point of the grid; at most one step, for times too large to be exact.
 inline double seconds_into(const SpringFollower& spring, std::int64_t step, double time) noexcept {
   return std::clamp(time - spring.time_of(step), 0.0, 1 / spring.settings().steps_per_second);
 }
 
-/// Brings a state to the last point of the grid up to `time`.
-/// @param at, forcing  as below
+/// Advances a state to the last point of the grid up to `time`. @param at, forcing as
+/// below
 template <class At, class ForcingOf>
 void bring_to(const SpringFollower& spring, SpringState& state, double time, const At& at,
               const ForcingOf& forcing) noexcept {
@@ -82,9 +82,9 @@ void bring_to(const SpringFollower& spring, SpringState& state, double time, con
   });
 }
 
-/// The offset of a spring at `time`, its state brought to the point before.
+/// The offset of a spring at `time`, after its state was advanced to the point before.
 /// @param at       the target at a time
-/// @param forcing  what two targets one step apart drive the spring by
+/// @param forcing the forcing of the spring from two targets one step apart
 template <class At, class ForcingOf>
 Arrow offset_at(const SpringFollower& spring, SpringState& state, double time, const At& at,
                 const ForcingOf& forcing) noexcept {

@@ -14,7 +14,7 @@ constexpr double nothing = 1e-14;  // of the chain's length
 
 struct TwoBones {
   Arrow first, second;  // in the space of the start
-  Turning carried;      // from the space in which the middle turns to that of the start
+  Turning carried;      // from the space of the middle's turn to that of the start
 };
 
 TwoBones two_bones(const TwoBoneChain& chain, std::span<const Motion> pose) noexcept {
@@ -32,25 +32,26 @@ TwoBones two_bones(const TwoBoneChain& chain, std::span<const Motion> pose) noex
   return bones;
 }
 
-// How far the end is to be from the start, d being the distance of the target.
+// The wanted distance of the end from the start, where d is that of the target.
 Dual softened(const Dual& d, const Dual& reach, double share) noexcept {
   const Dual width = Dual(share) * reach, from = reach - width;
   if (!(width.v > 0) || d.v <= from.v) return d;
   return from + width * (Dual(1) - exponential((from - d) / width));
 }
 
-// The line to the target. Of its numbers the sooner ones are used where they do: what takes longest is not waited for.
+// The line to the target. Numbers that are ready early are used where they suffice, so that slow ones are not waited
+// for.
 struct Line {
   Vec3 way;               // along it, of any length
   double square, length;  // of the way
   Arrow along;            // of length 1
 };
 
-// The part of a direction across the line.
+// The part of a direction perpendicular to the line.
 struct Beside {
-  Vec3 unit, third;     // the third is across both: along x unit
-  double straight = 0;  // how much of it is along the line, for each of its length across
-  double size = 0;      // length of the part, times the square of the line's way
+  Vec3 unit, third;     // `third` is perpendicular to both: along x unit
+  double straight = 0;  // its part along the line, relative to its length across it
+  double size = 0;      // length of the part, times the square of the line's length
   double inverse = 0;   // 1 / length of the part
 };
 [[gnu::always_inline]] inline Beside beside(const Vec3& direction, const Line& line) noexcept {
@@ -66,20 +67,20 @@ struct Beside {
   return part;
 }
 
-// Where the middle goes, across the line to the target: `side`, and `normal`, about which it bends; along x normal is
-// the side.
+// The plane of the bend, given by two directions perpendicular to the line to the target: `side`, to which the middle
+// goes, and `normal`, about which it bends; along x normal is the side.
 struct Plane {
   Vec3 side, normal;
   double turning;  // about the line, rad/s
 };
 
-// The first bone as it is carried by the pose.
+// The first bone as moved by the pose.
 struct Carried {
   const Quat& rotation;
   Vec3 spin;
 };
 
-// The pose's own, given by the axis about which it bends.
+// The pose's own plane, given by its bending axis.
 template <class Vector>
 [[gnu::always_inline]] inline Plane own_plane(const Line& line, const Carried& carried,
                                               const Axes<Vector>& bone) noexcept {
@@ -96,8 +97,8 @@ template <class Vector>
   return {any, any.cross(along.v), 0};
 }
 
-// The pole's. Where the pole is nearly along the chain, it turns over from the pose's own: without a flip where the
-// pole goes through the line.
+// The plane through the pole. Where the pole is nearly along the chain, it blends over from the pose's own plane, so
+// that nothing flips where the pole crosses the line.
 template <class Vector>
 [[gnu::always_inline]] inline Plane pole_plane(const Arrow& pole, const Line& line, const Carried& carried,
                                                const Axes<Vector>& bone) noexcept {
@@ -120,16 +121,16 @@ template <class Vector>
   return {turned, turned.cross(along.v), own.turning + angle.d};
 }
 
-// What a solve is about.
+// The result of a solve.
 struct Bend {
   Turning start;       // the whole rotation of the start
-  Vec3 way, way_spin;  // in its space: where the second bone points, and how that turns
+  Vec3 way, way_spin;  // in its space: the direction of the second bone, and its angular velocity
 };
 
-// The solve proper, for bones that change their lengths or, in less time, do not.
-// @param bone         axes of the first bone: along it, that about which the middle bends, and the third
+// The solve itself, for bones of changing or, faster, of constant lengths.
+// @param bone         axes of the first bone: along it, the bending axis, and the third
 // @param a, b         lengths of the bones
-// @param line, d      to the target from the start, and how far away it is
+// @param line, d      line from the start to the target, and its distance
 template <class Vector, class Number>
 [[gnu::always_inline]] inline Bend bent(const Axes<Vector>& bone, const Number& a, const Number& b, const Line& line,
                                         const Dual& d, const Motion& start, const Inward& inward,
@@ -143,16 +144,17 @@ template <class Vector, class Number>
   }
   const Plane plane =
       goal.pole ? pole_plane(inward.direction(arrow(*goal.pole)), line, carried, bone) : own_plane(line, carried, bone);
-  // The triangle of the two bones and the line to the target, by Heron's formula. Cosines are told by how far they are
-  // from where the chain is folded or stretched: else bones of very unequal lengths would lose which of them it is.
+  // The triangle of the two bones and the line to the target, by Heron's formula. Cosines are computed from the
+  // distance to the folded or the stretched chain: otherwise rounding would confuse the two for bones of very different
+  // lengths.
   const Dual wide_a(a), wide_b(b);
   const bool first_longer = wide_a.v >= wide_b.v;
   const Dual reach = wide_a + wide_b;
   const double least = std::abs(wide_a.v - wide_b.v);
-  // Of less softness nothing is seen, and nothing could be as fast.
+  // A smaller softness would be invisible, with rates too large.
   const Dual distance = goal.softness > 1e-9 ? softened(d, reach, std::min(goal.softness, 0.5)) : d;
   double cosine = first_longer ? 1 : -1, sine = 0, turning = 0;  // of the angle at the start
-  double bend_cosine = -1, bend_sine = 0, bending = 0;           // of that by which the chain is bent
+  double bend_cosine = -1, bend_sine = 0, bending = 0;           // of the angle by which the chain is bent
   if (distance.v >= reach.v) {
     cosine = bend_cosine = 1;
   } else if (distance.v > least) {
@@ -164,7 +166,7 @@ template <class Vector, class Number>
     sine = area * inverse;
     bend_cosine = folded * inverse_of_bones - 1;
     bend_sine = area * inverse_of_bones;
-    // By the rates of b b = a a + d d - 2 a d cos and d d = a a + b b + 2 a b cos.
+    // From the rates of b b = a a + d d - 2 a d cos and d d = a a + b b + 2 a b cos.
     const double squares = wide_b.v * wide_b.d - wide_a.v * wide_a.d, twice = area > 0 ? 2 / area : 0;
     turning = ((wide_a.v * cosine - distance.v) * distance.d + squares + wide_a.d * distance.v * cosine) * twice;
     bending = (wide_a.v * wide_a.d + wide_b.v * wide_b.d - distance.v * distance.d +
@@ -178,7 +180,7 @@ template <class Vector, class Number>
   }
 
   Bend bend;
-  // The bone is turned in its own plane, and that onto the other.
+  // The bone is turned within its own plane, and that plane onto the plane of the bend.
   const Axes<Vec3> from{cosine * x - sine * z, y, sine * x + cosine * z};
   bend.start.v = rotation_between(from, {line.along.v, plane.normal, plane.side});
   bend.start.w = line.along.v.cross(line.along.d) + plane.turning * line.along.v - turning * plane.normal;
@@ -191,8 +193,8 @@ template <class Vector, class Number>
   return bend;
 }
 
-// A body that is turned the shortest way from where its point `from`, so far away, is to the direction `to`; half a
-// turn about `axis`, across both, where they are opposite.
+// The body turned the shortest way that brings its point `from`, at the distance `far`, to the direction `to`; where
+// they are opposite, by half a turn about `axis`, perpendicular to both.
 [[gnu::always_inline]] inline Turning swung(const Turning& body, const Vec3& from, double far, const Vec3& to,
                                             const Vec3& to_spin, const Vec3& axis) noexcept {
   const Vec3 x = from.cross(to);
@@ -204,7 +206,7 @@ template <class Vector, class Number>
   return turned;
 }
 
-// The first bone of a chain whose middle is so far from its start.
+// The first bone of a chain with the middle at `middle` from its start.
 TwoBoneChain::Bone bone_to(const Vec3& middle, const Vec3& axis) noexcept {
   TwoBoneChain::Bone bone{.to_middle = middle, .length = std::sqrt(middle.squaredNorm())};
   bone.x = middle / bone.length;
@@ -215,13 +217,13 @@ TwoBoneChain::Bone bone_to(const Vec3& middle, const Vec3& axis) noexcept {
   return bone;
 }
 
-// The axis about which the middle bends, across the first bone.
+// The axis about which the middle bends, perpendicular to the first bone.
 Arrow hinge_of(const TwoBoneChain& chain, const Arrow& first) noexcept {
   const Measured hinge = measured(across({chain.axis(), Vec3(0, 0, 0)}, first));
   return hinge.length.v > 1e-9 ? hinge.unit : Arrow{any_across(first.v), Vec3(0, 0, 0)};
 }
 
-// Whether nothing but rotations moves in a chain of three nodes, of which none stretches unevenly.
+// Whether only rotations move in a chain of three nodes, none with a non-uniform scale.
 bool is_stiff(const TwoBoneChain& chain, const Motion& start, const Motion& middle, const Motion& end) noexcept {
   const auto bits = [](const Vec3& v) {
     return std::bit_cast<std::uint64_t>(v.x()) | std::bit_cast<std::uint64_t>(v.y()) |
@@ -265,7 +267,7 @@ TwoBoneChain::TwoBoneChain(const Hierarchy& nodes, const TwoBoneSettings& settin
                      "axis is along the bone from start to middle; it must be across it");
   } else {
     problems.require(size > 1e-6 * lengths && size > 0,
-                     "it is straight at rest, so that which way it bends must be told: give axis, about which the "
+                     "it is straight at rest, so the direction of its bend is not known: give axis, about which the "
                      "middle turns when it bends, in the space of the start");
   }
   problems.report();

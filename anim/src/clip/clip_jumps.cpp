@@ -49,7 +49,7 @@ void collect(const Curve<T>& curve, double duration, std::vector<double>& jumps)
   for (const double knot : curve.knots())
     if (knot > 0 && knot <= duration && differ(curve.value(knot, Side::in), curve.value(knot, Side::out)))
       jumps.push_back(knot);
-  // A track that repeats within its clip jumps at each of its own seams.
+  // A track that repeats within its clip may jump at each of its own seams.
   const double length = curve.duration();
   if (std::isfinite(length) && length > 0 && differ(curve.value(curve.end(), Side::in), curve.value(curve.start()))) {
     constexpr int most = 1000;

@@ -11,7 +11,7 @@ namespace tweenfall {
 namespace clips {
 namespace {
 
-/// Of a loop with more counted rounds, an even number is left out of the reckoning, so that no digits are lost to it.
+/// For loops with more rounds than this, an even number of rounds is left out of the phase, so that no digits are lost.
 constexpr double most_counted = 0x1p30;
 
 std::optional<Curve<double>> ramp(const Fade& fade, double from, double to) {
@@ -103,8 +103,8 @@ double Course::time_of(double wanted, const Stretch& stretch) const noexcept {
     const double steady = speed.at(turns.back());
     return std::clamp(last_turn + (wanted - phase(last_turn)) / steady, stretch.from, stretch.to);
   }
-  // The first time at which it has come so far; the bounds are those of the speed's turns, whatever is asked for, so
-  // that an event has one time.
+  // The first time at which the phase is reached. The bounds are always the turns of the speed, whatever is requested,
+  // so that an event has only one time.
   double early = stretch.from, late = stretch.turn;
   if (stretch.direction * (phase(early) - wanted) >= 0) late = early;
   while (early < late) {
@@ -124,7 +124,7 @@ struct Running {
   bool backwards = false;
   bool started = false, ended = false;
 
-  /// Of a speed that is constant, the end is told from the phase.
+  /// For a constant speed, the phase tells whether the play has ended.
   void find_ended(const Rounds& rounds, Side side) noexcept {
     const bool below = (side == Side::in) != backwards;
     const bool past_end = below ? phase > rounds.total : phase >= rounds.total;
@@ -133,7 +133,7 @@ struct Running {
   }
 };
 
-/// @param pace_at  gives the speed, where it runs
+/// @param pace_at gives the speed while it runs
 template <class PaceAt>
 ClipClock clock_of(const Rounds& rounds, const Running& at, Side side, const PaceAt& pace_at) noexcept {
   ClipClock clock;
@@ -144,7 +144,7 @@ ClipClock clock_of(const Rounds& rounds, const Running& at, Side side, const Pac
   clock.to = rounds.from + rounds.length;
   const bool finite = std::isfinite(rounds.total);
   const bool running = at.started && at.direction != 0 && !at.ended;
-  // Which end of the phase the clock comes from and goes to; a clock at rest belongs to what it shows.
+  // The side from which the clock arrives in phase; a clock at rest belongs to the round that it shows.
   const bool from_below = (side == Side::in) != at.backwards;
   const double at_phase = std::clamp(at.phase, rounds.low, rounds.total);
 
@@ -221,7 +221,7 @@ Player::Life::Life(const Play& played, const Clip& clip, double start)
 }
 
 Player::Life::~Life() {
-  // One after another, so that no number of changes can exhaust the stack.
+  // Freed one after another, so that no number of changes can exhaust the stack.
   std::shared_ptr<Life> next = std::move(before);
   while (next && next.use_count() == 1) next = std::exchange(next->before, nullptr);
 }
@@ -248,8 +248,8 @@ PlayVoices Player::voices(double time, Side side) const noexcept {
   PlayVoices voices;
   voices.list[0] = {life->clock(time, side), life->weight(time, side)};
   voices.count = 1;
-  // Of a weight w, n = w f is the new one's, and what is below has the rest of it: 1 - (1 - w) / (1 - n), so that
-  // what lies under the play shows through as before.
+  // Of a weight w, the new voice has n = w f, and the one below the rest, 1 - (1 - w) / (1 - n), so that what lies
+  // under the play shows through as before.
   for (; life->under && voices.count < PlayVoices::most; life = life->under) {
     const Sample<double> part = life->over_under(time);
     if (part.value == 1 && part.rate == 0) break;

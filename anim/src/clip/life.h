@@ -20,16 +20,17 @@ struct Rounds {
   double length = 0;  ///< of one round, s; may be infinite
   LoopMode mode = LoopMode::once;
   bool reverse = false;
-  double left_out = 0;  ///< rounds before phase 0: an even number of very many, so that no digits are lost to them
+  double left_out = 0;  ///< rounds before phase 0: an even number, nonzero only for very many, so that no digits are
+                        ///< lost
   double counted = 0;   ///< rounds from phase 0 on, where they are counted
   double low = 0, total = 0;
-  bool lands = false;  ///< its end is that of the clip, which there jumps onto its last keys
+  bool lands = false;  ///< its end is that of the clip, where the clip jumps to its last keys
 
   [[nodiscard]] bool loops() const noexcept { return mode != LoopMode::once && length > 0 && std::isfinite(length); }
   [[nodiscard]] bool is_flipped(double round) const noexcept {
     return (loops() && mode == LoopMode::pingpong && std::fmod(round, 2.0) != 0) != reverse;
   }
-  /// Phase at which a round comes to a time of its section, 0 to `length`; where two rounds meet, the same of both.
+  /// Phase at which a round reaches a time of its section, 0 to `length`; where two rounds meet, the same for both.
   [[nodiscard]] double phase_of(double round, double inside) const noexcept {
     const double way = is_flipped(round) ? length - inside : inside;
     if (!loops()) return way;
@@ -38,15 +39,15 @@ struct Rounds {
 };
 
 [[nodiscard]] Rounds rounds_of(const Play& play, const Clip& clip) noexcept;
-/// Of a clip that is played whole. @param lands  as `lands_on_last_key` says
+/// For a clip that is played whole. @param lands as from `lands_on_last_key`
 [[nodiscard]] Rounds rounds_of(double duration, const Loop& loop, bool backwards, bool lands) noexcept;
 /// The clock of a play at one speed that starts at `at`: what `Course` gives, without finding when it ends.
 [[nodiscard]] ClipClock steady_clock(const Rounds& rounds, double at, double speed, double time, Side side) noexcept;
 
-/// A while in which the phase goes one way.
+/// A stretch of time in which the phase goes one way.
 struct Stretch {
   double from = 0, to = 0;  ///< s
-  double turn = 0;          ///< where the speed would have it end, s: the next turn, or infinity
+  double turn = 0;          ///< where the speed alone would end it, s: the next turn, or infinity
   double phase_from = 0, phase_to = 0;
   int direction = 1;
   bool first = false;  ///< the clock begins to move here
@@ -61,17 +62,17 @@ class Course {
     return speed.is_constant() ? origin_phase + (time - origin) * speed.at(0)
                                : origin_phase + (speed.way(time - speed_from) - way_at_origin);
   }
-  /// Within the rounds, and as it is held after the end.
+  /// The phase limited to the rounds, and held after the end.
   [[nodiscard]] double held_phase(double time) const noexcept {
     return time >= end ? end_phase : std::clamp(phase(std::max(time, at)), rounds.low, rounds.total);
   }
   [[nodiscard]] ClipClock clock(double time, Side side) const noexcept;
-  /// When a stretch comes to a phase within it.
+  /// The time at which a stretch reaches a phase within it.
   [[nodiscard]] double time_of(double wanted, const Stretch& stretch) const noexcept;
-  /// Where it is in force: from `since`, or its start.
+  /// The time from which it is in force: `since`, or its start.
   [[nodiscard]] double begin() const noexcept { return std::max(at, since); }
 
-  /// Its clock goes on from `time` as it does.
+  /// Makes `time`, with the phase there, the origin of its clock.
   void set_origin(double time, double at_phase) noexcept;
   void find_end() noexcept;
 
@@ -101,13 +102,13 @@ class Course {
 
   Rounds rounds;
   PlaySpeed speed;
-  double since = -infinity;  ///< from here on it is in force
-  double at = 0;             ///< it starts, s
+  double since = -infinity;  ///< it is in force from here on, s
+  double at = 0;             ///< its start, s
   double origin = 0, origin_phase = 0;
-  double speed_from = 0, way_at_origin = 0;  ///< of a speed that is a curve: where that begins
+  double speed_from = 0, way_at_origin = 0;  ///< for a speed that is a curve: where that begins
   double end = infinity, end_phase = 0;      ///< when its rounds are over, and where
-  bool moved = false;                        ///< before `since`
-  double first_move = infinity;              ///< when its clock first moves, where it has not
+  bool moved = false;                        ///< whether it had moved before `since`
+  double first_move = infinity;              ///< when its clock first moves, if it has not moved before
 };
 
 }  // namespace clips
@@ -127,23 +128,23 @@ struct Player::Life : clips::Course {
   [[nodiscard]] bool has_moved(double time) const noexcept { return moved || first_move < time; }
 
   Play play;
-  std::shared_ptr<const Play> given;  ///< before anything was asked of it
+  std::shared_ptr<const Play> given;  ///< before any change
   double weight_from = 0;
   bool fades_in = true;
   std::optional<Curve<double>> rise{}, fall{};
   double stopped = clips::infinity;
-  std::vector<FiredEvent> told{};  ///< at `since`
+  std::vector<FiredEvent> told{};  ///< events at `since`
   std::shared_ptr<Life> before{};
-  const Life* under = nullptr;  ///< one of those before: its clock runs on while this one fades in over it
+  const Life* under = nullptr;  ///< an earlier one, whose clock runs on while this one fades in over it
   double under_from = 0, under_for = 0;
 
-  /// How much of this one there is over the other.
+  /// The weight of this one over `under`.
   [[nodiscard]] Sample<double> over_under(double time) const noexcept;
 };
 
 namespace clips {
 
-/// Of the events of a clip, those intervals in whose inside a phase is, each with its round.
+/// An event interval of a clip that contains a phase, with its round.
 struct OpenInterval {
   std::size_t event;
   double round;
@@ -151,8 +152,8 @@ struct OpenInterval {
 };
 [[nodiscard]] std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip, double phase);
 
-/// The moments that a clock passes from one phase to another at once; where it moves for the `first` time, those on
-/// which it stands too.
+/// The moments that a clock passes when it jumps from one phase to another; if it moves for the `first` time, also
+/// those at its own phase.
 [[nodiscard]] std::vector<FiredEvent> passed_moments(const Rounds& rounds, const Clip& clip, std::size_t index,
                                                      double from, double to, bool first, double time);
 

@@ -9,10 +9,10 @@ namespace tweenfall {
 namespace clips {
 namespace {
 
-/// More events than this between two moments are an error and no list.
+/// More events than this between two moments are an error.
 constexpr double most_events = 1'000'000;
 
-/// Where an interval lies in the section that is played, from its start; nothing where it does not.
+/// The part of an interval inside the section that is played, from its start; empty where there is none.
 struct Inside {
   double from, to;
 };
@@ -26,7 +26,7 @@ Inside phases_of(const Rounds& rounds, double round, const Inside& interval) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Where a moment does.
+/// The place of a moment inside the section.
 std::optional<double> place_of(const Rounds& rounds, const ClipEvent& event) {
   const double inside = event.from - rounds.from;
   return inside >= 0 && inside <= rounds.length ? std::optional(inside) : std::nullopt;
@@ -35,7 +35,8 @@ std::optional<double> place_of(const Rounds& rounds, const ClipEvent& event) {
 struct Span {
   double first = 0, last = -1;
 };
-/// The rounds that may hold phases from `low` to `high`. They are passed by their count: far away one more is the same.
+/// The rounds that may contain phases from `low` to `high`. They are iterated by count, because for very large round
+/// numbers adding 1 changes nothing.
 Span rounds_between(const Rounds& rounds, double low, double high) {
   if (!rounds.loops()) return {0, 0};
   Span span{std::floor(low / rounds.length) - 1, std::floor(high / rounds.length) + 1};
@@ -53,13 +54,14 @@ double round_ahead(const Rounds& rounds, double phase, double direction) {
   return direction > 0 ? std::floor(place) : std::ceil(place) - 1;
 }
 
-/// Whether a phase is the turn of a ping-pong, told with the round before: the clip is in one place once, not twice.
+/// Whether a phase is the turn of a ping-pong, already handled with the round before: the clip is there once, not
+/// twice.
 bool is_turn_again(const Rounds& rounds, double round, double phase) {
   const bool first = std::isfinite(rounds.total) && round == -rounds.left_out;
   return rounds.loops() && rounds.mode == LoopMode::pingpong && phase == round * rounds.length && !first;
 }
 
-/// The events of one stretch of one play, as its clock meets them.
+/// The events of one stretch of one play, in the order in which its clock meets them.
 class StretchWalk {
  public:
   StretchWalk(const Rounds& rounds, const Clip& clip, std::size_t index, const Stretch& stretch)
@@ -88,7 +90,7 @@ class StretchWalk {
   }
 
  private:
-  /// Whether the stretch comes to a phase: its beginning counts or its end does.
+  /// Whether the stretch reaches a phase, with its beginning included or not.
   [[nodiscard]] bool is_between(double phase, bool with_beginning) const {
     const double from = stretch_.direction * stretch_.phase_from, to = stretch_.direction * stretch_.phase_to;
     const double at = stretch_.direction * phase;
@@ -106,7 +108,7 @@ class StretchWalk {
   const Stretch& stretch_;
 };
 
-/// Why a clip cannot tell its events.
+/// Why the events of a clip are refused.
 std::string refusal(const Play& play, const Clip& clip, const std::string& stretch) {
   const Rounds rounds = rounds_of(play, clip);
   const bool around = rounds.mode != LoopMode::once;
@@ -164,7 +166,7 @@ std::vector<FiredEvent> passed_moments(const Rounds& rounds, const Clip& clip, s
 void Player::visit_events(const Clip& clip, double from, double to, bool from_start,
                           const std::function<bool(FiredEvent&&)>& visit) const {
   if (clip.events.empty() && latest_->told.empty() && !latest_->before) return;
-  // Each life tells what is its own: from where it took over, until where the next did.
+  // Each life gives the events of its own time: from where it took over to where the next did.
   std::vector<const Life*> lives;
   for (const Life* life = latest_.get(); life; life = life->before.get()) {
     if (life->since <= to) lives.push_back(life);
@@ -195,7 +197,7 @@ void Player::visit_events(const Clip& clip, double from, double to, bool from_st
       }
     };
     life.visit_stretches(from, to, std::min(last, life.stopped), [&](const clips::Stretch& stretch) {
-      // Changed or stopped at that instant: it is the next one that begins to move, or none.
+      // Changed or stopped at that instant: the next life begins to move, or none.
       if (stretch.first && stretch.from >= std::min(last, life.stopped)) return true;
       if (stretch.first && life.over() > stretch.from)
         tell_open(stretch.phase_from, stretch.from, FiredEvent::Kind::begin);
@@ -215,7 +217,7 @@ void Player::visit_events(const Clip& clip, double from, double to, bool from_st
       }
       return goes_on;
     });
-    // What is open when it is over ends then.
+    // Intervals that are open when the life is over end then.
     const double over = life.over();
     if (goes_on && over > life.since && over <= last && over >= from && over <= to && life.has_moved(over))
       tell_open(life.held_phase(over), over, FiredEvent::Kind::end);
@@ -254,7 +256,7 @@ std::optional<FiredEvent> Player::first_event(const Clip& clip, double from, dou
   std::optional<FiredEvent> first;
   const bool told = latest_->before || !latest_->told.empty();
   if (name && !told && std::ranges::find(clip.events, *name, &ClipEvent::name) == clip.events.end()) return first;
-  // All rounds of a section in which there is none of them would be gone through for nothing.
+  // Skips lives without such an event, whose rounds would all be searched in vain.
   const auto tells = [&](const Life& life) {
     return std::ranges::any_of(clip.events, [&](const ClipEvent& event) {
       if (name && event.name != *name) return false;
@@ -286,7 +288,7 @@ std::string too_many_events(const Play& play, const Clip& clip, double seconds) 
   if (clip.events.empty() || speed == 0) return {};
   double plays = 1;
   if (const clips::Rounds rounds = clips::rounds_of(play, clip); rounds.loops()) {
-    // The stretch may lie anywhere: it touches a round more at each end, as many are looked at beside these, and far
+    // The stretch may lie anywhere: it touches one more round at each end, as many are searched beside these, and far
     // from the start the number of the first is rounded.
     plays = 1.001 * seconds * speed / rounds.length + 4;
     if (const double count = play.loop.value_or(clip.loop).count; count > 0 && play.speed.is_constant())

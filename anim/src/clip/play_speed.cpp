@@ -8,12 +8,12 @@
 
 namespace tweenfall {
 
-/// Of the clock of a play: how fast it runs, and how far it has come.
+/// The speed of a play's clock, and the clip time that has passed.
 struct PlaySpeed::Warp {
   Curve<double> speed, way;
   double way_at_start = 0;
   std::vector<double> turns{};
-  std::vector<int> directions{};  // from each turn on; first from the start on
+  std::vector<int> directions{};  // after each turn; the first is from the start on
   double greatest = 0;
 };
 
@@ -26,7 +26,7 @@ int sign_of(double number) noexcept {
 
 const Curve<double>& ending(const Curve<double>& speed) {
   if (!std::isfinite(speed.start()) || !std::isfinite(speed.end()))
-    throw std::invalid_argument("the speed of a play is a curve that has an end, or a number");
+    throw std::invalid_argument("the speed of a play is a number, or a curve that has an end");
   if (speed.before() != Outside::hold || speed.after() != Outside::hold)
     throw std::invalid_argument("the speed of a play holds its values before its first key and after its last");
   return speed;
@@ -48,7 +48,7 @@ PlaySpeed::PlaySpeed(const Curve<double>& speed) {
     if (root > 0) warp->turns.push_back(root);
   std::ranges::sort(warp->turns);
   warp->turns.erase(std::unique(warp->turns.begin(), warp->turns.end()), warp->turns.end());
-  // Between two turns the speed has one sign; half way it is told from zero.
+  // Between two turns the speed has one sign; it is taken half way.
   double from = 0;
   for (const double turn : warp->turns) {
     warp->directions.push_back(clips::sign_of(speed.value(from + (turn - from) / 2)));

@@ -21,7 +21,7 @@ struct Overloaded : Cases... {
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-/// From a weight that moves to another, where it comes to rest. Where it would overshoot 0 or 1, it starts less steep.
+/// From a moving weight to another, where it comes to rest. Where it would overshoot 0 or 1, it starts less steeply.
 Curve<double> eased_on(const Sample<double>& from, double to, double seconds) {
   const auto made = [&](double rate) {
     return keyed_curve<double>(
@@ -59,7 +59,7 @@ Curve<double> weight_of(const PlayKeys& keys) {
 
 void require_seconds(double seconds) {
   if (!(seconds >= 0) || !std::isfinite(seconds))
-    throw std::invalid_argument("a play fades in 0 s or more, not " + number_text(seconds));
+    throw std::invalid_argument("a fade takes 0 s or more, not " + number_text(seconds));
 }
 
 std::string listed(const std::vector<std::string>& problems) {
@@ -83,8 +83,8 @@ std::vector<std::string> problems_of(const Play& play, const Clip& clip) {
     if (!holds) problems.push_back(problem);
   };
   const auto seconds = [](double value) { return number_text(value) + " s"; };
-  require(std::isfinite(play.at), "it starts at a time that is none");
-  require(std::isfinite(play.speed.greatest()), "its speed is none");
+  require(std::isfinite(play.at), "its start time is not a finite number");
+  require(std::isfinite(play.speed.greatest()), "its speed is not a finite number");
   require(play.from >= 0 && std::isfinite(play.from), "its section cannot start at " + seconds(play.from));
   if (play.to)
     require(*play.to > play.from && std::isfinite(*play.to),
@@ -94,10 +94,10 @@ std::vector<std::string> problems_of(const Play& play, const Clip& clip) {
           "its section reaches to " + seconds(last) + ", and the clip to " + seconds(clip.duration));
   require(play.offset >= 0 && std::isfinite(play.offset), "its offset is " + seconds(play.offset) + ", not 0 or more");
   const bool endless = std::isinf(play.to.value_or(clip.duration));
-  require(!(endless && play.reverse), "what has no end cannot run in reverse");
+  require(!(endless && play.reverse), "an endless section cannot run in reverse");
   if (play.loop) {
     require(play.loop->count >= 0 && std::isfinite(play.loop->count), "its loop has no such count");
-    require(!(endless && play.loop->mode != LoopMode::once), "what has no end cannot loop");
+    require(!(endless && play.loop->mode != LoopMode::once), "an endless section cannot loop");
   }
   for (const Fade* fade : {&play.fade_in, &play.fade_out})
     require(fade->seconds >= 0 && std::isfinite(fade->seconds), "a fade takes 0 s or more");
@@ -194,7 +194,7 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
     clips::require_seconds(seconds);
     Sample<double> now = old.weight(time, Side::out);
     if (old.fall) {
-      // What leads out goes on by itself, over the fade.
+      // The fade-out continues by itself, on top of the fade.
       Life bare = old;
       bare.fall.reset();
       now = bare.weight(time, Side::out);
@@ -203,7 +203,7 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
     next->weight_from = time;
     next->fades_in = false;
   };
-  // Of intervals, those that are left and entered when the clock is elsewhere at once, or over.
+  // The intervals that are left and entered when the clock jumps, or is over.
   const auto tell_leap = [&](std::size_t clip_index) {
     const double before_phase = old.held_phase(time), after_phase = next->held_phase(time);
     const auto before = runs && old.has_moved(time) ? clips::open_intervals(old.rounds, clip, before_phase)
@@ -247,7 +247,8 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
                    PlaySpeed speed(curve_of(set.speed));
                    if (set.seconds > 0) {
                      if (!speed.is_constant())
-                       throw std::invalid_argument("a speed of keys says by them how it goes there");
+                       throw std::invalid_argument(
+                           "a speed with several keys takes no time to change: its keys say how it changes");
                      const double now = old.speed.at(std::max(0.0, time - old.speed_from));
                      speed = PlaySpeed(keyed_curve<double>({{.time = 0, .value = now, .ease = Ease::linear()},
                                                             {.time = set.seconds, .value = speed.at(0)}}));
@@ -269,8 +270,8 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
                    const double last = rounds.from + rounds.length;
                    if (!(seek.time >= rounds.from && seek.time <= last))
                      throw std::invalid_argument("\"" + clip.name + "\" has no time " + number_text(seek.time) +
-                                                 " s in what is played of it, " + number_text(rounds.from) + " s to " +
-                                                 number_text(last) + " s");
+                                                 " s in the section that is played, " + number_text(rounds.from) +
+                                                 " s to " + number_text(last) + " s");
                    const double now = std::max(time, old.at), phase = old.held_phase(now);
                    double round = rounds.loops() ? std::floor(phase / rounds.length) : 0;
                    if (rounds.loops() && phase == rounds.total && phase == round * rounds.length) round -= 1;
@@ -307,7 +308,7 @@ double RunningPlay::first_weight_jump(double from, double to) const noexcept {
 std::optional<FiredEvent> RunningPlay::first_event(const Clip& events, double from, double to, bool from_start,
                                                    std::optional<std::string_view> name) const {
   if (lead == 0 && clock_override == ClockOverride{}) return player->first_event(events, from, to, from_start, name);
-  // On the stage's time an event has one place, whatever is asked for: those a little around are looked at, too.
+  // An event has one stage time, whatever is requested, so a little around the stretch is searched too.
   const double a = own_time(from), b = own_time(to), around = 1e-12 * (1 + std::abs(a) + std::abs(b));
   std::optional<FiredEvent> first;
   player->visit_events(events, a - around, b + around, from_start, [&](FiredEvent&& event) {

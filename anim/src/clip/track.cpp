@@ -24,7 +24,7 @@ StepCurve<T>::StepCurve(std::vector<std::pair<double, T>> steps) : steps_(std::m
 
 template <class T>
 const T& StepCurve<T>::value(double time, Side side) const noexcept {
-  // One that was moved from has no steps.
+  // A curve that was moved from has no steps.
   static const T none{};
   if (steps_.empty()) return none;
   const auto later = [&](double t, const auto& step) { return side == Side::out ? t < step.first : t <= step.first; };

@@ -8,12 +8,12 @@ namespace tweenfall::crowd {
 
 namespace {
 
-/// What a run has to save, of the whole.
+/// The share of the whole cost that an additional run has to save.
 constexpr double worth_a_run = 0.03;
 constexpr double impossible = std::numeric_limits<double>::infinity();
 
-/// Each channel in the best of its ways that are left. @returns the cost of all; `impossible` where a channel has no
-/// way
+/// Stores each channel in the best of its remaining ways. @returns the total cost; `impossible` where a channel has
+/// none
 double best_ways(const std::vector<std::vector<Way>>& choices, const std::map<Form, bool>& left, const Form* without,
                  std::vector<Form>* out) {
   double cost = 0;
@@ -39,7 +39,7 @@ std::vector<Form> chosen(const std::vector<std::vector<Way>>& choices) {
   std::vector<Form> forms(choices.size());
   double cost = best_ways(choices, left, nullptr, nullptr);
   const double worth = worth_a_run * cost;
-  // One form after the other is given up, as long as that costs less than a run may.
+  // Gives up one form after the other, as long as that costs less than a run may.
   while (true) {
     const Form* cheapest = nullptr;
     double least = impossible;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which way each channel is stored: at little cost, and so that few runs come about.
+// Chooses how each channel is stored: at little cost, and with few runs.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace tweenfall::crowd {
 
-/// One form for each channel, of its ways. A run more is worth while where it saves some of the whole cost.
+/// One form for each channel, from its ways. An additional run is worthwhile if it saves some share of the whole cost.
 [[nodiscard]] std::vector<Form> chosen(const std::vector<std::vector<Way>>& choices);
 
 }  // namespace tweenfall::crowd

@@ -23,10 +23,10 @@ namespace {
 
 constexpr Kind kinds[] = {Kind::translation, Kind::rotation, Kind::scale};
 
-/// A float cannot tell a number nearer than by this part of it.
+/// Relative resolution of a float.
 constexpr double float_resolution = 1.2e-7;
 
-/// For how much a number of a kind may be off if the points of the figure are to be off by `share` for it alone.
+/// How far off a number of a kind may be if it alone moves the points of the figure by `share`.
 double room_for(const Reach& reach, std::size_t joint, Kind kind, double share) {
   if (joint >= reach.joints.size()) return std::numeric_limits<double>::infinity();
   const Reach::OfJoint& of = reach.joints[joint];
@@ -69,13 +69,13 @@ Steps steps_for(const Fitted& fit, const std::array<double, lane_count>& room) {
   double longest = 0;
   for (std::size_t i = 1; i < fit.knots.size(); ++i) longest = std::max(longest, fit.knots[i] - fit.knots[i - 1]);
   Steps steps(fit.slots(), room);
-  // A rate that is off by e takes a cubic off by 4/27 e h.
+  // An error e of a rate moves a cubic by 4/27 e h.
   for (std::size_t slot = components(fit.kind); slot < steps.size(); ++slot)
     for (double& step : steps[slot]) step *= 3 / longest;
   return steps;
 }
 
-/// Weaves the rows of the channels of a run.
+/// Interleaves the rows of the channels of a run.
 void weave(const std::vector<Encoded>& channels, std::vector<std::int32_t> Encoded::*part, std::size_t rows,
            std::vector<std::int32_t>& out) {
   for (std::size_t row = 0; row < rows; ++row)
@@ -104,7 +104,7 @@ void add_run(CompiledClip& clip, const std::vector<FittedChannel>& fits, const F
   weave(stored, &Encoded::fine, form.fine == Packing::none ? 0 : knots, clip.words);
 }
 
-/// What a track that is relative gains, it gains within the rest pose.
+/// The gain of a relative track applies within the rest pose.
 void add_climbs(CompiledClip& clip, const ExactPose& exact) {
   if (exact.clip().loop.mode != LoopMode::repeat_offset) return;
   for (const pose::BoundClip::Entry& entry : exact.bound().entries()) {
@@ -170,10 +170,10 @@ std::vector<double> measured_times(const std::vector<FittedChannel>& fits, doubl
   return times;
 }
 
-/// Looks for the coarsest steps that keep the tolerance. @param best_error  written: the least that was measured
+/// Finds the coarsest steps that keep the tolerance. @param best_error written: the smallest error measured
 std::shared_ptr<CompiledClip> coarsest(const ExactPose& exact, const std::vector<FittedChannel>& fits,
                                        const Reach& reach, const CrowdSettings& settings, double& best_error) {
-  // What is measured at many times holds, but for a little, at those between.
+  // The error at times between the measured ones is hardly larger.
   const double allowed = 0.97 * settings.tolerance;
   const std::vector<double> times = measured_times(fits, exact.duration());
   const std::vector<Survey> surveys = surveys_of(fits);

@@ -8,16 +8,16 @@ namespace tweenfall::crowd {
 
 namespace {
 
-/// Repeats of a curve beyond these are found by looking at the curve, as what formulas do is.
+/// Repeats of a curve beyond this number are found by sampling, as for formulas.
 constexpr std::size_t most_knots = 200000;
-/// How long a stretch of a formula is looked at as one, at most, s.
+/// The longest stretch of a formula that is sampled as one, s.
 constexpr double longest_look = 1.0 / 16;
 
 void add_inside(double time, double duration, std::vector<double>& out) {
   if (time > 0 && time < duration && out.size() < most_knots) out.push_back(time);
 }
 
-/// The knots of a curve that goes on from `edge` by a rule, forwards or backwards.
+/// The knots of a curve that continues beyond an end by a rule, forwards or backwards.
 template <class T>
 void add_repeats(const Curve<T>& curve, Outside rule, bool after, double duration, std::vector<double>& out) {
   add_inside(after ? curve.end() : curve.start(), duration, out);

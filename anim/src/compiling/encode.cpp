@@ -11,7 +11,7 @@ namespace tweenfall::crowd {
 
 namespace {
 
-/// For how much of a line at each knot a slot is read from a row less.
+/// The cost of reading a slot from a further row, in lines per knot.
 constexpr double line_for_row = 0.06;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -42,7 +42,7 @@ struct Range {
 Grid grid_over(const Range& range, int limit) {
   Grid grid;
   grid.offset = static_cast<float>(range.middle());
-  // Rounded up, that the ends are not further off than the rest.
+  // Rounded up, so that the ends are not further off than the rest.
   const double reach = std::max(range.high - grid.offset, grid.offset - range.low);
   grid.step = static_cast<float>(reach / limit);
   if (static_cast<double>(grid.step) * limit < reach)
@@ -50,7 +50,7 @@ Grid grid_over(const Range& range, int limit) {
   return grid;
 }
 
-/// What a base of some stride leaves of a channel.
+/// What remains of a channel after a base of some stride.
 class Based {
  public:
   Based(const Fitted& fitted, std::size_t stride) : fitted_(fitted), spline_(fitted.knots.size(), stride) {
@@ -95,7 +95,7 @@ class Based {
   std::vector<Grid> grids_;
 };
 
-/// Puts one whole number of a lane into its word.
+/// Packs one integer of a lane into its word.
 void pack(std::int32_t* row, const Field& field, std::size_t lane, int number) {
   const std::uint32_t mask = (1U << field.bits) - 1;
   std::int32_t& at = row[field.word * lane_count + lane];

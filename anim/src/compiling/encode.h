@@ -1,6 +1,6 @@
 #pragma once
 
-// From numbers at knots to rows of few bits.
+// Encodes numbers at knots as rows of few bits.
 
 #include <array>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace tweenfall::crowd {
 
-/// What a channel is at the knots of a timeline, as it was fitted.
+/// The fitted values of a channel at the knots of a timeline.
 struct Fitted {
   Kind kind = Kind::translation;
   bool cubic = false;
@@ -22,10 +22,10 @@ struct Fitted {
   }
 };
 
-/// The steps that are fine enough for each slot and lane.
+/// The sufficiently fine steps for each slot and lane.
 using Steps = std::vector<std::array<double, CrowdGroup::size>>;
 
-/// A channel as it is stored: rows of its own, to be woven with those of others.
+/// A channel in stored form: its own rows, to be interleaved with those of others.
 struct Encoded {
   std::vector<float> numbers;
   std::vector<std::int32_t> base, fine;  ///< row after row
@@ -34,20 +34,20 @@ struct Encoded {
 /// A way to store a channel, and what that costs.
 struct Way {
   Form form;    ///< the number of the timeline is not set
-  double cost;  ///< lines of eight words; and what it takes to read them, where that counts, as so many lines
+  double cost;  ///< in lines of eight words, with the time to read them converted to lines where that counts
 };
 
-/// What every way of storing a channel would leave, so that the ways for some steps are known at once.
+/// The remainders of every way of storing a channel, so that the ways for given steps are found quickly.
 class Survey {
  public:
   explicit Survey(const Fitted& fitted);
 
-  /// All ways in which no number is further off than half its step, or hardly. One at least.
-  /// @param smallest  only room counts, and not time
+  /// All ways in which no number is further off than about half its step; at least one.
+  /// @param smallest only memory counts, not time
   [[nodiscard]] std::vector<Way> ways(const Steps& steps, bool smallest) const;
 
  private:
-  /// Of a sequence of numbers: half its range, and its largest magnitude.
+  /// Half the range of a sequence of numbers, and its largest magnitude.
   struct Extent {
     double half = 0, most = 0;
   };

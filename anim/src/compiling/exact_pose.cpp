@@ -9,7 +9,7 @@ ExactPose::ExactPose(const Clip& clip, const Hierarchy& nodes)
   if (!problems_.empty()) throw std::invalid_argument("a clip does not fit the nodes of its crowd:" + problems_);
 }
 
-// At the end a clip shows what a play of it rests on.
+// At the end, the pose on which a play of the clip rests.
 ClipClock ExactPose::clock(double time, Side side) const {
   const bool rests = time >= clip_.duration && !bound_.lands();
   return {.time = time, .rate = 1, .started = true, .side = rests ? Side::in : side};

@@ -1,6 +1,6 @@
 #pragma once
 
-// The exact path, as compiling asks for it.
+// The exact path, in the form needed for compiling.
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/hierarchy.h>

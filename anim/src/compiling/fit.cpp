@@ -11,7 +11,7 @@ namespace {
 
 /// Knots nearer than this to the one before are left out, unless the curves turn out to need them: files round times.
 constexpr double nearest_knots = 1e-6;  // s
-/// A change that is over within this is a jump, even where no knot tells of it.
+/// A change within less than this counts as a jump, even where there is no knot.
 constexpr double shortest = 1e-9;  // s
 constexpr std::size_t most_knots_of_fit = 200000;
 
@@ -51,7 +51,7 @@ class Fitter {
     return look;
   }
 
-  /// A rotation is told by either of two signs: by that nearer to another.
+  /// Of the two signs of a rotation, takes the one nearer to another.
   void align(Look& look, const Look& to) const {
     if (kind_ != Kind::rotation) return;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -65,7 +65,7 @@ class Fitter {
     }
   }
 
-  /// @param most  knots; a fit that would take more is given up and comes back with none
+  /// @param most greatest number of knots; a fit that would need more is given up and returns none
   [[nodiscard]] Fitted fit(std::span<const double> knots, bool cubic, std::size_t most) {
     fit_ = {.kind = kind_, .cubic = cubic};
     most_ = most;
@@ -79,7 +79,7 @@ class Fitter {
       align(to, from);
       piece(knots[i], from, knots[i + 1], to);
     }
-    // Steps have their last key at the very end.
+    // Held keys jump to their last value at the very end.
     Look last = look(knots.back(), Side::out);
     align(last, before_);
     if (!given_up_ && !joined(last, 0)) add(knots.back(), last);
@@ -107,14 +107,14 @@ class Fitter {
     piece(middle, leaving, to, end);
   }
 
-  /// A knot of a curve that was taken for one with its neighbor, or else the middle.
+  /// A knot of a curve that was merged with its neighbor, or else the middle.
   [[nodiscard]] double split(double from, double to) const {
     const auto first = std::ranges::upper_bound(knots_, from);
     const auto last = std::ranges::lower_bound(knots_, to);
     return first < last ? first[(last - first) / 2] : from + 0.5 * (to - from);
   }
 
-  /// Whether what leaves the last knot is what arrives there.
+  /// Whether the values arriving at and leaving the last knot agree.
   [[nodiscard]] bool joined(const Look& left, double length) const {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const double room = 0.1 * tolerance_[lane];
@@ -138,8 +138,8 @@ class Fitter {
       fit_.values.insert(fit_.values.end(), std::begin(look.rate[c]), std::end(look.rate[c]));
   }
 
-  /// Whether the piece between two looks is as near to the curves as it has to be, at times that no wave is likely to
-  /// have in common.
+  /// Whether the piece between two looks is near enough to the curves, at irregular times that no oscillation is likely
+  /// to match.
   [[nodiscard]] bool near(double from, const Look& left, double to, const Look& right) const {
     const double length = to - from;
     for (const double u : {0.5, 0.2113248654, 0.7886751346, 0.0694318442, 0.9305681558, 0.3617261933, 0.6382738067}) {
@@ -200,7 +200,7 @@ Fitted fitted(const ExactPose& exact, const CurveKnots& knots, std::size_t group
     return still;
   }
   Fitted lines = fitter.fit(times, false, most_knots_of_fit);
-  // A knot of a cubic takes twice the room; but where its neighbors are far apart it is the lines that take more.
+  // A knot of a cubic takes twice the room, but lines may need many more knots.
   Fitted cubics = fitter.fit(times, true, lines.knots.empty() ? most_knots_of_fit : lines.knots.size() / 2);
   if (!cubics.knots.empty()) return cubics;
   if (lines.knots.empty())

@@ -1,6 +1,6 @@
 #pragma once
 
-// From curves to a line or Hermite cubics between few knots.
+// Approximates curves by lines or Hermite cubics between few knots.
 
 #include <array>
 #include <vector>
@@ -10,16 +10,16 @@
 
 namespace tweenfall::crowd {
 
-/// Where, within a clip, the curves of each node have knots of their own; by kind.
+/// The times within a clip at which the curves of each node have knots, by kind.
 struct CurveKnots {
   CurveKnots(const Clip& clip, const Hierarchy& nodes);
 
   std::array<std::vector<std::vector<double>>, 3> of;  ///< for each kind and node; s, in no order
 };
 
-/// A channel through the knots of its curves, and as many more as it takes for none of its numbers to be further off
-/// than `tolerance` has it for the lane.
-/// @throws std::invalid_argument where 200,000 knots do not do
+/// A channel through the knots of its curves, and as many more as are needed to keep each of its numbers within the
+/// `tolerance` of its lane.
+/// @throws std::invalid_argument where 200,000 knots are not enough
 [[nodiscard]] Fitted fitted(const ExactPose& exact, const CurveKnots& knots, std::size_t group, Kind kind,
                             const std::array<double, CrowdGroup::size>& tolerance);
 

@@ -11,7 +11,7 @@ namespace tweenfall::crowd {
 namespace {
 
 constexpr int looks = 48;
-constexpr double least_reach = 1e-6;  // m; what is nearer to its joint cannot be seen
+constexpr double least_reach = 1e-6;  // m; anything nearer to its joint cannot be seen
 
 double longest_column(const Mat3& linear) {
   return std::max({linear.col(0).norm(), linear.col(1).norm(), linear.col(2).norm()});
@@ -21,7 +21,7 @@ void look_at(const ExactPose& exact, double arm, std::span<const WorldFrame> wor
   const Hierarchy& nodes = exact.nodes();
   for (std::size_t node = 0; node < nodes.size(); ++node) {
     const double tip = arm * longest_column(world[node].linear);
-    // Everything above it feels it.
+    // All joints above it reach that far.
     for (std::size_t above = node; above != no_node; above = nodes[above].parent) {
       Reach::OfJoint& of = reach.joints[above];
       of.farthest = std::max(of.farthest, (world[node].origin - world[above].origin).norm() + tip);
@@ -68,7 +68,7 @@ double largest_error(const ExactPose& exact, const CompiledClip& clip, double ar
   double largest = 0;
   for (const double time : times)
     for (const Side side : {Side::in, Side::out}) {
-      if (time <= 0 && side == Side::in) continue;  // what comes before its start is not of the clip
+      if (time <= 0 && side == Side::in) continue;  // the time before its start does not belong to the clip
       exact.sample(time, side, wanted);
       nodes.world_frames(wanted, wanted_world);
       sample_with(fastest_sample_kernels(), clip, time, side == Side::in, 1, pose.data(), nullptr);
@@ -87,7 +87,7 @@ double largest_error(const ExactPose& exact, const CompiledClip& clip, double ar
         for (int axis = 0; axis < 3; ++axis) {
           const Vec3 tip = arm * Vec3::Unit(axis);
           const double error = (wanted_world[node].point(tip) - found_world[node].point(tip)).norm();
-          // What is no number is as far off as can be.
+          // NaN counts as an infinite error.
           largest = error <= largest ? largest : std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
         }
     }

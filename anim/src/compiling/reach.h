@@ -1,6 +1,6 @@
 #pragma once
 
-// How far an error of a joint is felt in the figure, and how large errors are.
+// How much an error of a joint moves the figure, and how large errors are.
 
 #include <span>
 #include <vector>
@@ -12,9 +12,9 @@ namespace tweenfall::crowd {
 
 struct Reach {
   struct OfJoint {
-    double stretch = 1;             ///< of what is below the joint's parent, by the scales above
-    double farthest = 0;            ///< from the joint to any point that hangs on it, m
-    double farthest_unscaled = 0;   ///< the same in the joint's own measure, as the figure sees it
+    double stretch = 1;             ///< factor for lengths below the joint's parent, from the scales above
+    double farthest = 0;            ///< from the joint to any point attached below it, m
+    double farthest_unscaled = 0;   ///< the same without the joint's own scale
     double largest[3] = {0, 1, 0};  ///< magnitude of a number of each kind
   };
   std::vector<OfJoint> joints;
@@ -22,7 +22,7 @@ struct Reach {
 
 [[nodiscard]] Reach reach_of(const ExactPose& exact, double arm);
 
-/// The largest distance of a point of the figure from where the exact path has it, m; at the given times, from both
+/// The largest distance of a point of the figure from its place on the exact path, m; at the given times, from both
 /// sides of each.
 [[nodiscard]] double largest_error(const ExactPose& exact, const CompiledClip& clip, double arm,
                                    std::span<const double> times);

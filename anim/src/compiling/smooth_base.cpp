@@ -25,7 +25,7 @@ SmoothBase::SmoothBase(std::size_t count, std::size_t stride)
       for (std::size_t k = 0; k <= i; ++k)
         factor_[band * (at.first + i) + band - 1 - (i - k)] += at.weights[i] * at.weights[k];
   }
-  // Where few numbers lie in the last stride they alone do not settle all coefficients; a little stiffness does.
+  // Where few numbers lie in the last stride they do not determine all coefficients; a little stiffness does.
   const double stiffness = 1e-6;
   const double second[3] = {1, -2, 1};
   for (std::size_t first = 0; first + 3 <= coefficients_; ++first)

@@ -1,6 +1,6 @@
 #pragma once
 
-// The spline that is nearest to a sequence of numbers.
+// The least-squares spline of a sequence of numbers.
 
 #include <cstddef>
 #include <vector>
@@ -16,10 +16,10 @@ class SmoothBase {
 
   [[nodiscard]] std::size_t coefficients() const { return coefficients_; }
 
-  /// @param numbers  `count` of them, this far from each other  @param out  written, `coefficients()` of them
+  /// @param numbers `count` of them, `apart` places from each other @param out  written, `coefficients()` of them
   void fit(const double* numbers, std::size_t apart, double* out) const;
 
-  /// What the spline is at a number. @param from  its coefficients
+  /// The value of the spline at a number. @param from  its coefficients
   [[nodiscard]] double at(std::size_t number, const double* from) const;
 
  private:
@@ -30,7 +30,7 @@ class SmoothBase {
   [[nodiscard]] Tap tap(std::size_t number) const;
 
   std::size_t count_, stride_, coefficients_;
-  std::vector<double> taps_;    // the weights of each place within a stride, its end included
+  std::vector<double> taps_;    // the weights at each place within a stride, including its end
   std::vector<double> factor_;  // of the normal matrix, by Cholesky: four numbers for each row, the diagonal last
 };
 

@@ -7,7 +7,7 @@ namespace tweenfall::crowd {
 
 namespace {
 
-/// Of so many knots one is found as quickly one by one.
+/// Among so few knots a linear search is just as fast.
 constexpr std::size_t few = 8;
 
 std::size_t cell_of(const Timeline& timeline, double time) {
@@ -23,14 +23,14 @@ void Timeline::index() {
   const std::size_t count = length > 0 ? knots.size() : 1;
   cells_per_second = length > 0 ? std::min(static_cast<double>(count) / length, 1e300) : 0;
   cells.assign(count + 1, static_cast<std::uint32_t>(knots.size()));
-  // By the very rounding with which times are looked up, so that a knot is never taken for one of another cell.
+  // With the same rounding as in the lookup of times, so that a knot is never assigned to another cell.
   for (std::size_t i = knots.size(); i-- > 0;) cells[cell_of(*this, knots[i])] = static_cast<std::uint32_t>(i);
   for (std::size_t cell = count; cell-- > 0;) cells[cell] = std::min(cells[cell], cells[cell + 1]);
 }
 
 Timeline::Place Timeline::at(double time, bool arriving) const noexcept {
   const std::size_t cell = cell_of(*this, time);
-  // The first knot behind the time; one at the time counts as behind for who arrives.
+  // The first knot after the time; one at the time counts as after it on arrival.
   std::size_t behind = cells[cell];
   const std::size_t end = cells[cell + 1];
   if (end - behind > few) {
@@ -39,7 +39,7 @@ Timeline::Place Timeline::at(double time, bool arriving) const noexcept {
     const auto next = arriving ? std::lower_bound(first, last, time) : std::upper_bound(first, last, time);
     behind = static_cast<std::size_t>(next - knots.begin());
   } else {
-    // All are counted: no processor could guess at which one to stop.
+    // All are counted, because a branch to stop early could not be predicted.
     std::size_t passed = 0;
     for (std::size_t i = behind; i < end; ++i) passed += (arriving ? knots[i] < time : knots[i] <= time) ? 1 : 0;
     behind += passed;

@@ -12,7 +12,7 @@
 
 #include "crowd/compiled_clip.h"
 
-// Before the contents stand "tweenfall crowd\n", the version, how long the contents are, and their checksum. All
+// The contents are preceded by "tweenfall crowd\n", the version, the size of the contents, and their checksum. All
 // numbers are little-endian, each in its own width.
 
 namespace tweenfall {
@@ -26,7 +26,7 @@ constexpr std::uint32_t format_version = 1;
 constexpr std::size_t header_size = signature.size() + 4 + 8 + 8;
 constexpr std::uint32_t largest_stride = 64;
 constexpr std::uint32_t most_joints = 1U << 30;
-/// So far that no clip reaches there, and near enough that differences are finite; s.
+/// Later than any clip, but small enough that differences are finite; s.
 constexpr double latest_knot = 1e100;
 
 /// FNV-1a by words of eight bytes, with the finalizer of splitmix64.
@@ -62,7 +62,7 @@ class Writer {
 };
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw std::invalid_argument("these bytes are no compiled clip: " + why);
+  throw std::invalid_argument("these bytes are not a compiled clip: " + why);
 }
 
 class Reader {
@@ -83,16 +83,16 @@ class Reader {
     require(std::isfinite(value), "a number is not finite");
     return value;
   }
-  /// How many things follow, each of which takes `least` bytes or more.
+  /// The number of items that follow, each of which takes `least` bytes or more.
   [[nodiscard]] std::size_t count(std::size_t least) {
     const auto many = number<std::uint32_t>();
-    require(many <= left() / least, "it tells of more than there is room for");
+    require(many <= left() / least, "it claims more than fits in the remaining bytes");
     return many;
   }
-  /// @param values  many that are known from what came before; room is made once it is sure that they are there
+  /// @param many known from the bytes before; memory is allocated only after checking that they are there
   template <class T>
   void all(std::vector<T>& values, std::uint64_t many) {
-    require(many <= left() / sizeof(T), "it tells of more than there is room for");
+    require(many <= left() / sizeof(T), "it claims more than fits in the remaining bytes");
     values.resize(static_cast<std::size_t>(many));
     for (T& value : values) value = number<T>();
   }
@@ -144,8 +144,9 @@ void read_timeline(Reader& from, Timeline& timeline) {
   const std::size_t knots = from.count(sizeof(double));
   from.require(knots >= 2, "a timeline has fewer than two knots");
   from.all(timeline.knots, knots);
-  for (const double knot : timeline.knots) from.require(std::abs(knot) <= latest_knot, "a knot lies nowhere");
-  from.require(std::ranges::is_sorted(timeline.knots), "the knots of a timeline go back in time");
+  for (const double knot : timeline.knots)
+    from.require(std::abs(knot) <= latest_knot, "the time of a knot is out of range");
+  from.require(std::ranges::is_sorted(timeline.knots), "the knots of a timeline are not in order of time");
   timeline.index();
 }
 
@@ -162,7 +163,7 @@ Form read_form(Reader& from, const CompiledClip& clip) {
   form.fine = static_cast<Packing>(fine);
   form.stride = from.number<std::uint32_t>();
   if (form.is_constant()) {
-    from.require(form.timeline == Form::no_timeline && !form.cubic, "what is constant has no timeline");
+    from.require(form.timeline == Form::no_timeline && !form.cubic, "a constant channel has no timeline");
   } else {
     from.require(form.timeline < clip.timelines.size(), "there is no such timeline");
   }
@@ -185,9 +186,9 @@ void read_run(Reader& from, CompiledClip& clip, std::vector<bool>& seen, std::ui
     from.require(channel.group < seen.size() / 3 && kind <= 2, "there is no such channel");
     channel.kind = static_cast<Kind>(kind);
     const std::size_t place = std::size_t{3} * channel.group + kind;
-    from.require(!seen[place], "a channel is there twice");
+    from.require(!seen[place], "a channel occurs twice");
     seen[place] = true;
-    from.require(numbers <= 0xffffffffU, "it tells of more than there is room for");
+    from.require(numbers <= 0xffffffffU, "it claims more than fits in the remaining bytes");
     channel.numbers = static_cast<std::uint32_t>(numbers);
     numbers += run.form.slots(components(channel.kind)) * run.form.numbers_per_slot() * lane_count;
     clip.channels.push_back(channel);
@@ -195,13 +196,13 @@ void read_run(Reader& from, CompiledClip& clip, std::vector<bool>& seen, std::ui
   clip.runs.push_back(run);
 }
 
-/// The largest number that a component of a packing is read as.
+/// The largest value that a component of a packing can have.
 double largest_field(Packing packing, std::size_t component_count, std::size_t component) {
   const Field field = field_of(packing, component_count, component);
   return std::ldexp(1.0, field.at_top() ? 31 : field.at + field.bits);
 }
 
-/// What the values of a channel, or its tangents, are at most: of any of its components.
+/// Bound on the values of a channel, or on its tangents, over all its components.
 double largest_of(const CompiledClip& clip, const Run& run, const Channel& channel, bool tangents) {
   const std::size_t count = components(channel.kind), each = run.form.numbers_per_slot();
   double largest = 0;
@@ -216,7 +217,7 @@ double largest_of(const CompiledClip& clip, const Run& run, const Channel& chann
     }
   return largest;
 }
-/// The same of one whose numbers are floats. @param column  where it begins in a row
+/// The same for a channel stored as floats. @param column where it begins in a row
 double largest_exact(const CompiledClip& clip, const Run& run, std::size_t column, std::size_t width) {
   double largest = 0;
   for (std::size_t knot = 0; knot < clip.timelines[run.form.timeline].knots.size(); ++knot)
@@ -228,7 +229,7 @@ double largest_exact(const CompiledClip& clip, const Run& run, std::size_t colum
   return largest;
 }
 
-/// No number that can be read may lead to one, or to a rate, that float cannot hold.
+/// Checks that no numbers in the bytes can lead to a value or a rate that float cannot hold.
 void require_bounded(const Reader& from, const CompiledClip& clip) {
   for (const float value : clip.numbers) from.require(std::isfinite(value), "a number is not finite");
   for (const Run& run : clip.runs) {
@@ -278,19 +279,19 @@ void read_climbs(Reader& from, CompiledClip& clip) {
 
 void read(Reader& from, CompiledClip& clip) {
   clip.joints = from.number<std::uint32_t>();
-  from.require(clip.joints <= most_joints, "it tells of more than there is room for");
+  from.require(clip.joints <= most_joints, "it claims more than fits in the remaining bytes");
   clip.duration = from.finite();
   const auto mode = from.number<std::uint8_t>();
   from.require(mode <= static_cast<std::uint8_t>(LoopMode::pingpong), "there is no such loop");
   clip.loop.mode = static_cast<LoopMode>(mode);
   clip.loop.count = from.finite();
   clip.error = from.finite();
-  from.require(clip.duration >= 0 && clip.loop.count >= 0 && clip.error >= 0, "a number is negative that cannot be");
+  from.require(clip.duration >= 0 && clip.loop.count >= 0 && clip.error >= 0, "a number must not be negative");
   const std::size_t timelines = from.count(4);
   for (std::size_t i = 0; i < timelines; ++i) read_timeline(from, clip.timelines.emplace_back());
 
   const std::size_t channels = 3 * crowd_groups(clip.joints), runs = from.count(15 + 5);
-  from.require(channels <= from.left() / 5, "it tells of more than there is room for");
+  from.require(channels <= from.left() / 5, "it claims more than fits in the remaining bytes");
   std::vector<bool> seen(channels);
   std::uint64_t numbers = 0;
   for (std::size_t i = 0; i < runs; ++i) read_run(from, clip, seen, numbers);
@@ -329,7 +330,7 @@ std::size_t CrowdClip::byte_count() const noexcept {
 CrowdClip CrowdClip::from_bytes(std::span<const std::byte> bytes) {
   using namespace crowd;
   if (bytes.size() < header_size)
-    refuse("there are " + std::to_string(bytes.size()) + " of them, fewer than stand before any");
+    refuse("there are " + std::to_string(bytes.size()) + " of them, fewer than a header has");
   for (std::size_t i = 0; i < signature.size(); ++i)
     if (static_cast<char>(bytes[i]) != signature[i]) refuse("they do not begin with \"tweenfall crowd\"");
   Reader header(bytes.subspan(signature.size(), header_size - signature.size()));
@@ -342,7 +343,7 @@ CrowdClip CrowdClip::from_bytes(std::span<const std::byte> bytes) {
   if (contents.size() != size)
     refuse("there should be " + std::to_string(size) + " of them after the header, and there are " +
            std::to_string(contents.size()));
-  if (checksum(contents) != sum) refuse("they were damaged, for their checksum is another");
+  if (checksum(contents) != sum) refuse("they are damaged: their checksum differs");
   Reader reader(contents);
   auto clip = std::make_shared<CompiledClip>();
   read(reader, *clip);

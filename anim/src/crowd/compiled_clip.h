@@ -1,14 +1,14 @@
 #pragma once
 
-// What a clip is compiled to.
+// The compiled form of a clip.
 //
 // A channel is one kind of value (translation, rotation, scale) of the eight joints of a group. Its values at the knots
 // of a timeline, and for cubic channels its rates there, are rows; between two knots the channel is a Hermite cubic of
 // these, or a line. A row is the sum of a base, a uniform cubic B-spline over the numbers of the knots with a
-// coefficient for every `stride` of them, and of what the base leaves, a whole number. Where a base does not pay there
-// is none.
-//
-// Channels that are alike in all this form a run, and are stored together, knot after knot.
+// coefficient for every `stride` of them, and of the remainder, an integer. Where a base would not save space there is
+// none.
+// Channels of the same form make up a run, and are stored together, knot after
+// knot.
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/crowd_pose.h>
@@ -23,7 +23,7 @@ namespace tweenfall::crowd {
 
 inline constexpr std::size_t lane_count = CrowdGroup::size;
 
-/// What the quotient of two nearly equal times is at most, so that products with it stay finite in float.
+/// Bound on the inverse of a difference of nearly equal times, so that products with it stay finite in float.
 inline constexpr double steepest = 1e30;
 
 enum class Kind : std::uint8_t { translation, rotation, scale };
@@ -32,7 +32,7 @@ enum class Kind : std::uint8_t { translation, rotation, scale };
   return kind == Kind::rotation ? 4 : 3;
 }
 
-/// How the three or four components of a value are put into the words of a lane.
+/// How the three or four components of a value are packed into the words of a lane.
 enum class Packing : std::uint8_t {
   none,
   narrow,  ///< one word: 10 bits for each of three, 8 for each of four
@@ -40,16 +40,16 @@ enum class Packing : std::uint8_t {
   exact,   ///< a float each
 };
 
-/// Where a component stands in its word. Reading leaves it there, and takes only what is at the top for signed: steps
-/// and offsets are made for that.
+/// The position of a component in its word. Reading leaves it there, and treats only the topmost as signed: steps and
+/// offsets are made for that.
 struct Field {
   std::size_t word;
   int at, bits;
 
   [[nodiscard]] constexpr bool at_top() const { return at + bits == 32; }
-  /// What is added to a number so that it is not negative.
+  /// Added to a number so that it is not negative.
   [[nodiscard]] constexpr int bias() const { return at_top() ? 0 : 1 << (bits - 1); }
-  /// What a number is multiplied by when it is read.
+  /// The factor by which a number is multiplied when it is read.
   [[nodiscard]] constexpr double factor() const { return at_top() ? 1.0 : static_cast<double>(1U << at); }
 };
 
@@ -79,9 +79,9 @@ struct Field {
 }
 
 struct Timeline {
-  std::vector<double> knots;  ///< s; two or more, none before the one in front of it; equal ones are a jump or a kink
+  std::vector<double> knots;  ///< s; two or more, not decreasing; equal ones are a jump or a kink
 
-  // Made from the knots: for each of many equal stretches of time the first knot that is not before it.
+  // Made from the knots: for each of many equal stretches of time, the first knot not before its start.
   std::vector<std::uint32_t> cells;
   double cells_per_second = 0;
 
@@ -89,8 +89,8 @@ struct Timeline {
 
   struct Place {
     std::size_t knot;  ///< the segment's first
-    double u;          ///< 0 to 1, along it
-    double length;     ///< of it, s; 0 for one that is a jump
+    double u;          ///< position in the segment, 0 to 1
+    double length;     ///< of the segment, s; 0 for a jump
   };
   [[nodiscard]] Place at(double time, bool arriving) const noexcept;
 };
@@ -105,7 +105,7 @@ struct Channel {
 struct Form {
   static constexpr std::uint32_t no_timeline = 0xffffffff;
 
-  std::uint32_t timeline = no_timeline;  ///< none: the channels are constant, their offsets
+  std::uint32_t timeline = no_timeline;  ///< none: the channels are constant, equal to their offsets
   bool cubic = false;
   Packing base = Packing::none, fine = Packing::none;
   std::uint32_t stride = 0;  ///< knots for each coefficient of the base; a power of 2, or 0 without one
@@ -140,11 +140,11 @@ struct Run {
   std::size_t taps_begin = 0;  ///< where the weights of the base's coefficients begin, four for each knot of a stride
 };
 
-/// A joint that a loop with offset takes further each time.
+/// A joint that a loop with offset moves further in each round.
 struct Climb {
   std::uint32_t joint = 0;
-  double gain[3] = {0, 0, 0};  ///< m each time
-  double turn[3] = {0, 0, 0};  ///< rotation vector, each time
+  double gain[3] = {0, 0, 0};  ///< m per round
+  double turn[3] = {0, 0, 0};  ///< rotation vector, per round
 };
 
 struct CompiledClip {
@@ -161,11 +161,11 @@ struct CompiledClip {
   std::vector<float> taps;  ///< made by `lay_out`
 };
 
-/// Where the rows of each run lie, from its form and channels, and the weights of its base. @returns how many words
-/// there are in all
+/// Sets where the rows of each run lie, from its form and channels, and the weights of its base. @returns the total
+/// number of words
 std::uint64_t lay_out(CompiledClip& clip);
 
-/// Takes the joints that climb to where they are after `cycle` plays. @param rates  null for none
+/// Moves the joints that climb to where they are after `cycle` rounds. @param rates  null for none
 void climb(const CompiledClip& clip, int cycle, CrowdGroup* pose, CrowdRates* rates) noexcept;
 
 /// The four coefficients' weights of a uniform cubic B-spline at x, 0 to 1, between the second and the third.

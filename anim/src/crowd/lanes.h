@@ -1,7 +1,7 @@
 #pragma once
 
-// Eight floats side by side. Each operation rounds as it does for one float, so that the bits are the same whatever
-// the processor does at once.
+// Eight floats side by side. Each operation rounds as for a single float, so that the bits do not depend on the width
+// of the processor's vectors.
 
 #include "crowd/compiled_clip.h"
 
@@ -13,10 +13,10 @@ namespace tweenfall::crowd {
 using Lanes = float __attribute__((vector_size(32), aligned(32)));
 using Words = std::int32_t __attribute__((vector_size(32), aligned(32)));
 
-/// What is inlined into a function takes that function's instruction set.
+/// Inlined functions use the instruction set of the function that they are inlined into.
 #define TWEENFALL_CROWD_LANES [[gnu::always_inline]] inline
 
-// How vectors would be passed to functions that are not inlined does not matter here: all are.
+// How vectors are passed to functions does not matter here: all are inlined.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 
@@ -28,7 +28,7 @@ TWEENFALL_CROWD_LANES Lanes load(const float* from) {
   __builtin_memcpy(&lanes, from, sizeof lanes);
   return lanes;
 }
-/// As `all`, of a number that is in memory: one instruction, where that would be seven.
+/// As `all`, for a number in memory: one instruction instead of seven.
 TWEENFALL_CROWD_LANES Lanes splat(float value) {
   float lanes[lane_count];
   for (float& lane : lanes) lane = value;
@@ -42,8 +42,8 @@ TWEENFALL_CROWD_LANES Words load_words(const std::int32_t* from) {
   __builtin_memcpy(&words, from, sizeof words);
   return words;
 }
-/// Whole numbers of `bits` bits, of which the lowest is number `at` of each word, as they stand: times 2 to the power
-/// of `at` and without a sign, but for those at the top of the word.
+/// The integers of `bits` bits from bit `at` of each word, left in place: multiplied by 2 to the power of `at`, and
+/// unsigned except at the top of the word.
 template <int at, int bits>
 TWEENFALL_CROWD_LANES Lanes field(const Words& words) {
   if constexpr (at + bits == 32) return __builtin_convertvector(words >> at, Lanes);
@@ -53,7 +53,7 @@ TWEENFALL_CROWD_LANES Lanes field(const Words& words) {
 TWEENFALL_CROWD_LANES Lanes select(const Words& which, const Lanes& yes, const Lanes& no) {
   return reinterpret_cast<Lanes>((which & reinterpret_cast<Words>(yes)) | (~which & reinterpret_cast<Words>(no)));
 }
-/// Square roots and reciprocals are those of IEEE 754: the quicker instructions differ from processor to processor.
+/// Square roots and reciprocals are those of IEEE 754: the faster, approximate instructions differ between processors.
 TWEENFALL_CROWD_LANES Lanes root(const Lanes& value) {
   Lanes result;
   for (std::size_t i = 0; i < lane_count; ++i) result[i] = __builtin_sqrtf(value[i]);

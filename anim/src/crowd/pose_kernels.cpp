@@ -25,14 +25,14 @@ TWEENFALL_CROWD_LANES Lanes with_sign(const Lanes& a, const Lanes& of) {
   const Words sign = reinterpret_cast<Words>(of) & (Words{} + static_cast<std::int32_t>(0x80000000U));
   return reinterpret_cast<Lanes>(reinterpret_cast<Words>(a) ^ sign);
 }
-/// To length 1; where there is none, `otherwise`.
+/// Scales to length 1; where the length is 0, takes `otherwise`.
 TWEENFALL_CROWD_LANES void normalize(Lanes* q, const Lanes* otherwise) {
   const Lanes squared = dot(q, q);
   const Lanes shrink = all(1) / root(squared);
   const Words there = squared > all(1e-30F);
   for (std::size_t c = 0; c < 4; ++c) q[c] = select(there, q[c] * shrink, otherwise[c]);
 }
-/// a b, of quaternions x, y, z, w.
+/// The product a b of quaternions x, y, z, w.
 TWEENFALL_CROWD_LANES void multiply(const Lanes* a, const Lanes* b, Lanes* out) {
   out[0] = (a[3] * b[0] + a[0] * b[3]) + (a[1] * b[2] - a[2] * b[1]);
   out[1] = (a[3] * b[1] + a[1] * b[3]) + (a[2] * b[0] - a[0] * b[2]);
@@ -40,10 +40,10 @@ TWEENFALL_CROWD_LANES void multiply(const Lanes* a, const Lanes* b, Lanes* out) 
   out[3] = (a[3] * b[3] - a[0] * b[0]) - (a[1] * b[1] + a[2] * b[2]);
 }
 
-/// How many layers are blended without looking at each group's list of them again.
+/// Up to this many layers, the kernel has their number as a constant.
 constexpr std::size_t most_known = 4;
 
-/// @param known  how many layers there are, all of which have a weight; 0 for any number, of which some may have none
+/// @tparam known number of layers, all with a weight; 0: any number, some of which may have none
 template <std::size_t known>
 TWEENFALL_CROWD_LANES void blend_groups(const CrowdLayer* layers, std::size_t layer_count, float portion,
                                         std::size_t groups, CrowdGroup* out) {
@@ -60,7 +60,7 @@ TWEENFALL_CROWD_LANES void blend_groups(const CrowdLayer* layers, std::size_t la
   };
   const auto counts = [&](std::size_t layer) { return known > 0 || layers[layer].weight > 0; };
   for (std::size_t g = 0; g < groups; ++g) {
-    // Rotations by themselves: with the rest there would be more numbers than registers.
+    // Rotations separately: together with the rest there would be more numbers than registers.
     Lanes first[4], turned[4];
     for (std::size_t c = 0; c < 4; ++c) {
       first[c] = load(row(pose_of(0)[g], first_turn + c));
@@ -82,7 +82,7 @@ TWEENFALL_CROWD_LANES void blend_groups(const CrowdLayer* layers, std::size_t la
       for (std::size_t i = 0; i < 6; ++i)
         moved[i] = moved[i] + share_of(layer) * load(row(pose_of(layer)[g], straight(i)));
     }
-    // What comes out may be what went in: it is written when all is read.
+    // The output may be an input, so it is written after everything is read.
     for (std::size_t c = 0; c < 4; ++c) store(row(out[g], first_turn + c), turned[c]);
     for (std::size_t i = 0; i < 6; ++i) store(row(out[g], straight(i)), moved[i]);
   }
@@ -102,7 +102,7 @@ TWEENFALL_CROWD_LANES void blend_masked_groups(const CrowdLayer* layers, std::si
                                                CrowdGroup* out) {
   const Lanes zero = all(0);
   for (std::size_t g = 0; g < groups; ++g) {
-    // Where one layer alone has a weight, its numbers are taken as they are.
+    // Where only one layer has a weight, its numbers are taken as they are.
     Lanes sum[row_count], alone[row_count], first[4], total = zero;
     Words has_one = total > zero, has_more = has_one;
     for (std::size_t i = 0; i < row_count; ++i) {
@@ -173,7 +173,7 @@ TWEENFALL_CROWD_LANES void add_groups(const CrowdGroup* base, const CrowdGroup* 
       turn[c] = load(row(difference[g], first_turn + c));
       from[c] = load(row(base[g], first_turn + c));
     }
-    // Mixed with no turn, the short way.
+    // Mixed with the identity, the short way.
     const Lanes turn_share = with_sign(share, turn[3]);
     for (std::size_t c = 0; c < 3; ++c) turn[c] = turn_share * turn[c];
     turn[3] = (one - share) + turn_share * turn[3];
@@ -191,14 +191,15 @@ TWEENFALL_CROWD_LANES void add_groups(const CrowdGroup* base, const CrowdGroup* 
 
 using Quad = float __attribute__((vector_size(16), aligned(16)));
 
-/// Eight times four numbers side by side, from four rows; to a row of eight matrices, or of those that are there.
+/// Transposes four rows to eight times four numbers, and writes them to one row of eight matrices, or of as many as
+/// there are.
 TWEENFALL_CROWD_LANES void put_rows(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& w, std::size_t there,
                                     CrowdMatrix* out, std::size_t row_number) {
   const Lanes xy_low = __builtin_shufflevector(x, y, 0, 8, 1, 9, 4, 12, 5, 13),
               xy_high = __builtin_shufflevector(x, y, 2, 10, 3, 11, 6, 14, 7, 15),
               zw_low = __builtin_shufflevector(z, w, 0, 8, 1, 9, 4, 12, 5, 13),
               zw_high = __builtin_shufflevector(z, w, 2, 10, 3, 11, 6, 14, 7, 15);
-  // Each of these is of a joint, and of the one four further.
+  // Each of these is for a joint and the one four further.
   const Lanes pairs[4] = {__builtin_shufflevector(xy_low, zw_low, 0, 1, 8, 9, 4, 5, 12, 13),
                           __builtin_shufflevector(xy_low, zw_low, 2, 3, 10, 11, 6, 7, 14, 15),
                           __builtin_shufflevector(xy_high, zw_high, 0, 1, 8, 9, 4, 5, 12, 13),
@@ -238,7 +239,7 @@ TWEENFALL_CROWD_LANES Quad quad_of(const float* from) {
 TWEENFALL_CROWD_LANES Quad each(float value) {
   return Quad{value, value, value, value};
 }
-/// 0, 0, 0 and the last.
+/// 0, 0, 0 and the last number.
 TWEENFALL_CROWD_LANES Quad last_of(const Quad& quad) {
   using Bits = std::int32_t __attribute__((vector_size(16), aligned(16)));
   return reinterpret_cast<Quad>(reinterpret_cast<Bits>(quad) & Bits{0, 0, 0, -1});

@@ -7,15 +7,15 @@
 namespace tweenfall::crowd {
 
 struct PoseKernels {
-  /// Layers without masks, the first of which has a weight. @param portion  what makes the weights sum to 1
+  /// Layers without masks, the first of which has a weight. @param portion factor that makes the weights sum to 1
   void (*blend)(const CrowdLayer* layers, std::size_t layer_count, float portion, std::size_t groups, CrowdGroup* out);
   void (*blend_masked)(const CrowdLayer* layers, std::size_t layer_count, std::size_t groups, CrowdGroup* out);
   void (*difference)(const CrowdGroup* reference, const CrowdGroup* pose, std::size_t groups, CrowdGroup* out);
   void (*add)(const CrowdGroup* base, const CrowdGroup* difference, float weight, const float* mask, std::size_t groups,
               CrowdGroup* out);
-  /// Matrices relative to the parents. @param joints  of the last group only those are written that are there
+  /// Matrices relative to the parents. @param joints in the last group only existing joints are written
   void (*place)(const CrowdGroup* pose, std::size_t joints, CrowdMatrix* out);
-  /// out[j] = out[parents[j]] out[j] in the given order; `root` stands for parents beyond the joints.
+  /// out[j] = out[parents[j]] out[j] in the given order; `root` is used for parents beyond the joints.
   void (*compose)(const std::uint32_t* order, const std::uint32_t* parents, std::size_t joints, const CrowdMatrix& root,
                   CrowdMatrix* out);
 };

@@ -26,7 +26,7 @@ void blend_with(const PoseKernels& kernels, std::span<const CrowdLayer> layers, 
   if (lead == layers.end()) return copy_pose(layers[0].pose, out);
   float total = 0;
   for (const CrowdLayer& layer : layers) total += layer.weight > 0 ? layer.weight : 0;
-  // The others add nothing, but would round.
+  // The others contribute nothing, but would round.
   if (total == lead->weight && std::ranges::none_of(lead + 1, layers.end(), has_weight))
     return copy_pose(lead->pose, out);
   const std::size_t first = static_cast<std::size_t>(lead - layers.begin());

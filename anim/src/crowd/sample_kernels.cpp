@@ -32,7 +32,7 @@ TWEENFALL_CROWD_LANES void unpack(const std::int32_t* row, Lanes (&out)[count]) 
   }
 }
 
-/// The rows of `rows`, each times its weight; and for rates times the others.
+/// The sum of `rows` rows, each times its weight; and for rates times its rate weight.
 template <std::size_t count, Packing packing, int rows, bool rates>
 TWEENFALL_CROWD_LANES void weighted_rows(const std::int32_t* first, std::size_t row_words, const Lanes* weights,
                                          const Lanes* rate_weights, Lanes (&value)[count], Lanes (&rate)[count]) {
@@ -46,8 +46,8 @@ TWEENFALL_CROWD_LANES void weighted_rows(const std::int32_t* first, std::size_t 
   }
 }
 
-/// Row weights, each once for every lane. They are made so here and not by whoever sets them: to be read at once, they
-/// must have been written as wide as they are read.
+/// Row weights, each repeated for every lane. They are widened here and not where they are set, because reading them is
+/// only fast if they were written at the same width.
 struct LaneWeights {
   Lanes base[4], fine[2], sum;
 };
@@ -65,14 +65,14 @@ struct LanePlace {
   LaneWeights value, tangent, value_rate, tangent_rate;
 };
 
-/// Where the kernel is: among the words of the base and fine rows, and among the numbers.
+/// The current position of the kernel: among the words of the base and fine rows, and among the numbers.
 struct Cursor {
   const std::int32_t* base;
   const std::int32_t* fine;
   const float* numbers;
 };
 
-/// What the values, or the tangents, of a channel add to it; the cursor goes on.
+/// Adds the values, or the tangents, of a channel; the cursor moves on.
 template <std::size_t count, Packing base, Packing fine, bool rates, bool tangents>
 TWEENFALL_CROWD_LANES void slots(Cursor& at, const Run& run, const LaneWeights& weights,
                                  const LaneWeights& rate_weights, Lanes (&value)[count], Lanes (&rate)[count]) {
@@ -88,7 +88,7 @@ TWEENFALL_CROWD_LANES void slots(Cursor& at, const Run& run, const LaneWeights& 
       if constexpr (rates) rate[c] = rest_rate[c];
     } else {
       const Lanes offset = load(at.numbers);
-      // The values at the two knots are mixed; of the tangents there can be more or less.
+      // The weights of the values sum to 1; those of the tangents do not.
       value[c] = tangents ? offset * weights.sum : offset;
       if constexpr (rates) rate[c] = tangents ? offset * rate_weights.sum : all(0);
       if constexpr (based) {
@@ -111,7 +111,7 @@ TWEENFALL_CROWD_LANES void slots(Cursor& at, const Run& run, const LaneWeights& 
 template <bool rates>
 TWEENFALL_CROWD_LANES void put(Lanes (&value)[3], Lanes (&rate)[3], float (*to)[lane_count],
                                float (*rate_to)[lane_count]) {
-  // Not in a loop: g++ 12 would copy what a loop of three stores through memory, in halves.
+  // Not in a loop: g++ 12 would copy the results of a loop of three through memory, in halves.
   store(to[0], value[0]);
   store(to[1], value[1]);
   store(to[2], value[2]);
@@ -122,11 +122,11 @@ TWEENFALL_CROWD_LANES void put(Lanes (&value)[3], Lanes (&rate)[3], float (*to)[
   }
 }
 
-/// Rotations are of length 1; p'/|p| with its part along p taken off is half of w p/|p|.
+/// Rotations are normalized; p'/|p| without its part along p is half of w p/|p|.
 template <bool rates>
 TWEENFALL_CROWD_LANES void put(Lanes (&p)[4], Lanes (&rate)[4], float (*to)[lane_count], float (*rate_to)[lane_count]) {
   const Lanes squared = (p[0] * p[0] + p[1] * p[1]) + (p[2] * p[2] + p[3] * p[3]);
-  // No clip that was compiled comes so near to no rotation at all; bytes that somebody forged may.
+  // No compiled clip has a quaternion this close to zero; forged bytes may.
   const Words there = squared > all(1e-4F);
   const Lanes shrink = select(there, all(1) / root(squared), all(0));
   for (std::size_t c = 0; c < 3; ++c) store(to[c], p[c] * shrink);

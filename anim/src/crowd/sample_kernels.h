@@ -10,11 +10,11 @@
 
 namespace tweenfall::crowd {
 
-/// What the rows around a time are multiplied by.
+/// The factors of the rows around a time.
 struct RowWeights {
   float base[4];
   float fine[2];
-  float sum;  ///< of those of the two knots; tangents have it alone
+  float sum;  ///< of the weights of the two knots; used only for tangents
 };
 
 /// A run at a time.
@@ -22,8 +22,8 @@ struct RunPlace {
   const Run* run;
   const std::int32_t* base;             ///< the first of four rows
   const std::int32_t* fine;             ///< the first of two
-  RowWeights value, tangent;            ///< for the values; the tangents' are not set where there are none
-  RowWeights value_rate, tangent_rate;  ///< not set where no rates are asked for
+  RowWeights value, tangent;            ///< those for tangents are not set where there are none
+  RowWeights value_rate, tangent_rate;  ///< not set where no rates are requested
 };
 
 struct SampleKernels {
@@ -35,11 +35,11 @@ struct SampleKernels {
 [[nodiscard]] const SampleKernels& plain_sample_kernels();
 [[nodiscard]] const SampleKernels& fastest_sample_kernels();
 
-/// The whole of a clip by given kernels. @param rates  null for none
+/// Samples all of a clip by given kernels. @param rates  null for none
 void sample_with(const SampleKernels& kernels, const CompiledClip& clip, double time, bool arriving, double rate,
                  CrowdGroup* pose, CrowdRates* rates) noexcept;
 
-/// The same of many figures at their clocks. @param poses  figure after figure
+/// The same for many figures at their clocks. @param poses  figure after figure
 void sample_many_with(const SampleKernels& kernels, const CompiledClip& clip, std::span<const ClipClock> clocks,
                       CrowdGroup* poses) noexcept;
 

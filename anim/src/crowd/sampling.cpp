@@ -10,7 +10,7 @@ namespace tweenfall::crowd {
 
 namespace {
 
-/// Of the values and of the tangents at a segment's two knots.
+/// The weights of the values and of the tangents at a segment's two knots.
 struct SegmentWeights {
   double value[2], tangent[2];
 };
@@ -30,7 +30,7 @@ SegmentWeights segment_rates(bool cubic, const Timeline::Place& place) {
   return {{-end, end}, {(1 - u) * (1 - 3 * u), u * (3 * u - 2)}};
 }
 
-/// @param taps  of the base's coefficients at the first knot; those at the second follow; null for no base
+/// @param taps weights of the base's coefficients at the first knot, followed by those at the second; null for no base
 RowWeights row_weights(const double* of_knots, const float* taps) {
   RowWeights weights{};
   const float first = static_cast<float>(of_knots[0]), second = static_cast<float>(of_knots[1]);
@@ -38,7 +38,7 @@ RowWeights row_weights(const double* of_knots, const float* taps) {
     for (int i = 0; i < 4; ++i) weights.base[i] = first * taps[i] + second * taps[4 + i];
   weights.fine[0] = first;
   weights.fine[1] = second;
-  // Of tangents, which are mixed with what does not sum to 1.
+  // For tangents, whose weights do not sum to 1.
   weights.sum = static_cast<float>(of_knots[0] + of_knots[1]);
   return weights;
 }
@@ -61,16 +61,16 @@ void set_place(RunPlace& at, const CompiledClip& clip, const Run& run, const Tim
   if (form.cubic) at.tangent_rate = row_weights(moving.tangent, taps);
 }
 
-/// Of several runs where they are is found first: then their words come from memory side by side.
+/// Several runs are located first, so that their words are loaded from memory in parallel.
 constexpr std::size_t at_once = 8;
 
-/// Where the runs of a clip are at a time.
+/// Finds the rows of a clip's runs at a time.
 class Locator {
  public:
   Locator(const CompiledClip& clip, double time, bool arriving)
-      : clip_(clip), time_(std::isnan(time) ? 0 : time), arriving_(arriving) {}  // one that is none is 0
+      : clip_(clip), time_(std::isnan(time) ? 0 : time), arriving_(arriving) {}  // NaN counts as 0
 
-  /// Those from the first on, as many as are found at once. @param places  `at_once` of them
+  /// Locates the runs from `first` on, as many as are located at once. @param places  `at_once` of them
   std::span<const RunPlace> locate(std::size_t first, bool with_rates, RunPlace* places) {
     const std::size_t count = std::min(at_once, clip_.runs.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
@@ -119,7 +119,7 @@ void sample_with(const SampleKernels& kernels, const CompiledClip& clip, double 
 
 void sample_many_with(const SampleKernels& kernels, const CompiledClip& clip, std::span<const ClipClock> clocks,
                       CrowdGroup* poses) noexcept {
-  // What is found of one figure does not wait for another's; what is read then comes from memory side by side.
+  // Locating several figures first lets their words be loaded from memory in parallel.
   constexpr std::size_t figures = 4;
   RunPlace places[figures][at_once];
   const std::size_t groups = crowd_groups(clip.joints);

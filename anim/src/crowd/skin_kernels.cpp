@@ -16,7 +16,7 @@ TWEENFALL_CROWD_LANES Four four(const float* from) {
   return numbers;
 }
 
-/// Four numbers in both halves: read so it is one instruction.
+/// Four numbers in both halves: written like this it is one instruction.
 TWEENFALL_CROWD_LANES Lanes twice(const float* from) {
   float lanes[lane_count];
   __builtin_memcpy(lanes, from, sizeof(Four));
@@ -30,7 +30,7 @@ struct Blended {
   Four lower;
 };
 
-/// The matrices of joints by their weights, each of which is in both halves of a row.
+/// Adds the matrices of joints times their weights, each of which is in both halves of a row.
 TWEENFALL_CROWD_LANES void add_joints(const CrowdMesh::Influence4& of, const CrowdMatrix* palette, bool first,
                                       Blended& matrix) {
   const char* const begin = reinterpret_cast<const char*>(palette);
@@ -48,7 +48,7 @@ TWEENFALL_CROWD_LANES void add_joints(const CrowdMesh::Influence4& of, const Cro
   }
 }
 
-/// From four pairs of a vertex and the one four further, each four numbers, to those numbers of all eight.
+/// Transposes four pairs of a vertex and the one four further, with four numbers each, to each number of all eight.
 TWEENFALL_CROWD_LANES void columns(const Lanes (&pairs)[4], Lanes* out) {
   const Lanes low01 = __builtin_shufflevector(pairs[0], pairs[1], 0, 8, 1, 9, 4, 12, 5, 13),
               high01 = __builtin_shufflevector(pairs[0], pairs[1], 2, 10, 3, 11, 6, 14, 7, 15),
@@ -72,7 +72,8 @@ TWEENFALL_CROWD_LANES void all_columns(const Blended (&of)[lane_count], Lanes (&
   columns(third, m[2]);
 }
 
-/// Eight points. A fourth number is written over by the next point, so the last one is written by itself.
+/// Writes eight points. Each write's fourth number is overwritten by the next point, so the last one is written
+/// separately.
 TWEENFALL_CROWD_LANES void put_points(const Lanes& x, const Lanes& y, const Lanes& z, CrowdPoint* out) {
   const Lanes xy_low = __builtin_shufflevector(x, y, 0, 8, 1, 9, 4, 12, 5, 13),
               xy_high = __builtin_shufflevector(x, y, 2, 10, 3, 11, 6, 14, 7, 15),
@@ -93,12 +94,12 @@ TWEENFALL_CROWD_LANES void put_points(const Lanes& x, const Lanes& y, const Lane
   }
 }
 
-/// Normals of a block on their way: what takes long, their lengths, is asked for and used a block later.
+/// Normals of a block in progress: their lengths, which take long, are computed now and used one block later.
 struct Normals {
   Lanes turned[3], shrink;
 };
 
-/// By the cofactors of a matrix: the cross products of its rows, mixed.
+/// Transforms by the cofactors of a matrix: the cross products of its rows.
 TWEENFALL_CROWD_LANES void turn_normals(const Lanes (&m)[3][4], const Lanes* n, Normals& out) {
   Lanes* const turned = out.turned;
   for (int r = 0; r < 3; ++r) {
@@ -114,7 +115,7 @@ TWEENFALL_CROWD_LANES void put_normals(const Normals& of, CrowdPoint* out) {
   put_points(of.turned[0] * of.shrink, of.turned[1] * of.shrink, of.turned[2] * of.shrink, out);
 }
 
-/// @param before  where the normals on their way belong; null for none
+/// @param before where the normals in progress belong; null for none
 template <bool many, bool with_normals>
 TWEENFALL_CROWD_LANES void skin_block(const SkinWork& work, std::size_t block, CrowdPoint* positions,
                                       CrowdPoint* before, Normals& normals) {

@@ -6,7 +6,7 @@
 
 namespace tweenfall::crowd {
 
-/// What a kernel reads and writes; all places count from the first vertex of a block.
+/// What a kernel reads and writes; all positions are relative to the first vertex of a block.
 struct SkinWork {
   const CrowdMesh::Block* blocks;
   const CrowdMesh::Influence4* influences;

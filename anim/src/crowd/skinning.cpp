@@ -14,7 +14,7 @@ namespace crowd {
 namespace {
 
 constexpr std::size_t influences_of_row = 4;
-/// Their matrices are found by 32 bits of bytes.
+/// The matrices are addressed by byte offsets of 32 bits.
 constexpr std::size_t palette_limit = 0xffffffff / sizeof(CrowdMatrix);
 
 void refuse_skin(const std::string& problems) {
@@ -42,7 +42,7 @@ std::string wrong_vectors(const std::vector<Vec3>& vectors, const char* what) {
   return problems;
 }
 
-/// Rows of four influences; what is left of the last row weighs nothing.
+/// One row of four influences; unused places of the last row have the weight 0.
 CrowdMesh::Influence4 row_of(std::span<const Influence> influences, std::size_t begin) {
   CrowdMesh::Influence4 row{};
   for (std::size_t i = 0; i < influences_of_row && begin + i < influences.size(); ++i) {

@@ -15,8 +15,8 @@ namespace tweenfall::graphs {
 
 namespace {
 
-constexpr std::size_t deepest = 64;     // operations one in another
-constexpr double most_evaluated = 1e4;  // operations that one pose may come to
+constexpr std::size_t deepest = 64;     // nested operations
+constexpr double most_evaluated = 1e4;  // operations in the evaluation of one pose
 
 std::string quoted(const std::string& name) {
   return "\"" + name + "\"";
@@ -35,7 +35,7 @@ std::vector<std::string> names_of(const Things& things) {
   return names;
 }
 
-// The first thing of a name; as many as there are where there is none.
+// Index of the first thing of a name; the number of things where there is none.
 template <class Things>
 std::size_t number_of(const Things& things, const std::string& name) {
   const auto found = std::ranges::find_if(things, [&](const auto& thing) { return thing.name == name; });
@@ -90,7 +90,7 @@ void Binder::bind_parameters() {
       fault({"parameters", parameter.name, "half_life"},
             "a half-life is 0 s or more; it is " + number_text(parameter.half_life) + " s");
     if (parameter.curve && parameter.half_life != 0)
-      fault({"parameters", parameter.name, "half_life"}, "a half-life means nothing for a parameter that has keys");
+      fault({"parameters", parameter.name, "half_life"}, "a parameter that has keys takes no half-life");
     if (parameter.curve) keep_jumps_of(*parameter.curve);
   }
 }
@@ -116,7 +116,7 @@ void Binder::bind_inputs() {
       fault(place,
             "there is no parameter " + quoted(input.name) + nearest_of(input.name, names_of(description_.parameters)));
     else if (description_.parameters[found].curve)
-      fault(place, "the parameter " + quoted(input.name) + " has keys, and is not set");
+      fault(place, "the parameter " + quoted(input.name) + " has keys and cannot be set");
   }
 }
 
@@ -141,7 +141,7 @@ void Binder::bind_reactions() {
       fault(place, "there is no parameter " + quoted(reaction.name) +
                        nearest_of(reaction.name, names_of(description_.parameters)));
     else if (description_.parameters[found].curve)
-      fault(place, "the parameter " + quoted(reaction.name) + " has keys, and is not set");
+      fault(place, "the parameter " + quoted(reaction.name) + " has keys and cannot be set");
   }
 }
 
@@ -161,12 +161,12 @@ const Operation* Binder::bind_pose(std::size_t index) {
       std::visit([&](const auto& described) { return bound(described, *this); }, description_.poses[index].operation);
   if (operation) operation->set_rooms(operation->rooms() + made.rooms);
   if (operation && made.depth > deepest) {
-    fault({}, "poses lie more than " + std::to_string(deepest) + " deep in each other here");
+    fault({}, "poses are nested more than " + std::to_string(deepest) + " deep here");
     operation.reset();
   }
   if (operation && made.size > most_evaluated) {
     fault({},
-          "this pose comes to " + brief_text(made.size) + " operations, for others are named in it again and again");
+          "this pose comes to " + brief_text(made.size) + " operations, because it uses other poses again and again");
     operation.reset();
   }
   making_.pop_back();
@@ -221,7 +221,7 @@ const Operation* Binder::bind_clip(std::size_t index) {
   return played;
 }
 
-// Springs ask for a pose at every point of their grid, and for the next.
+// Counts how often each pose is used. Springs sample a pose at every point of their grid, and at the next.
 void Binder::count_askers() {
   for (const GraphPose& pose : description_.poses) {
     const bool often =
@@ -306,7 +306,7 @@ std::size_t Binder::machine_number() const noexcept {
                                   compiled_->machine_poses.begin());
 }
 
-// Each line is a problem, or, below a line that says what they are about, each that is indented.
+// Each line is a fault; if there are indented lines, only these are, below a line that says what they are about.
 void Binder::fault_each(const Place& place, const std::string& lines) {
   const bool headed = lines.find("\n ") != std::string::npos;
   for (std::size_t at = 0; at < lines.size();) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// What operations are given while they are made: the poses, clips, parameters and joints that they name, each found or
-// told to be missing.
+// Used while operations are made: finds the poses, clips, parameters and joints that they name, or reports them as
+// missing.
 
 #include "operations/number.h"
 #include "operations/operation.h"
@@ -20,7 +20,7 @@ struct LoopedClip {
   std::size_t number;
   Clip clip;
   std::optional<pose::BoundClip> bound{};
-  Clip jumps{};  // without tracks; its events are where the clip and its loop jump
+  Clip jumps{};  // no tracks; its events mark the times at which the clip and its loop jump
 };
 
 }  // namespace graphs
@@ -28,13 +28,13 @@ struct LoopedClip {
 struct Graph::Compiled {
   std::vector<std::unique_ptr<const graphs::Operation>> operations;
   std::vector<std::unique_ptr<graphs::LoopedClip>> clips;
-  std::vector<const graphs::Operation*> machines;  // as they stand among the poses
-  std::vector<std::size_t> machine_poses;          // the pose that each is
+  std::vector<const graphs::Operation*> machines;  // in the order of the poses
+  std::vector<std::size_t> machine_poses;          // the pose of each machine
   const graphs::Operation* output = nullptr;
-  std::size_t phases = 0;                            // of clips that run in phase
+  std::size_t phases = 0;                            // operations whose clips run in phase
   std::size_t swings = 0;                            // operations with springs
-  std::size_t travels = 0;                           // operations that accumulate a way
-  std::size_t recent = 0;                            // operations that remember what they showed of late
+  std::size_t travels = 0;                           // operations that accumulate root motion
+  std::size_t recent = 0;                            // operations that remember their recent poses
   std::vector<char> moved;                           // by node: whether an operation moves it
   std::vector<Curve<double>> jumping;                // numbers over the graph's time that jump
   std::vector<std::optional<std::size_t>> reacting;  // by reaction: the parameter that it sets
@@ -70,15 +70,15 @@ class Binder {
   [[nodiscard]] std::vector<GraphFault> take_faults() { return std::move(faults_); }
   [[nodiscard]] std::unique_ptr<Graph::Compiled> take_compiled() { return std::move(compiled_); }
 
-  // For operations; `place` goes on from the pose that is being made
-  /// Null where there is none, or it goes around in a circle, which is told.
+  // For operations; `place` is relative to the pose being made
+  /// Null where there is none, or where poses refer to each other in a circle; both are reported.
   [[nodiscard]] const Operation* pose(const std::string& name, const Place& place);
   [[nodiscard]] const LoopedClip* clip(const std::string& name, const std::optional<Loop>& loop, const Place& place);
   [[nodiscard]] std::optional<std::size_t> parameter(const std::string& name, const Place& place);
   [[nodiscard]] Number number(const GraphNumber& number, const Place& place);
-  /// `no_node` where there is none, which is told.
+  /// `no_node` where there is none, which is reported.
   [[nodiscard]] std::size_t node(const std::string& name, const Place& place);
-  /// An operation moves it.
+  /// Marks a node as moved by an operation.
   void moves(std::size_t node) { compiled_->moved[node] = 1; }
   [[nodiscard]] JointMask mask(const std::vector<MaskPart>& parts, const Place& place);
   [[nodiscard]] std::size_t machine_number() const noexcept;
@@ -86,7 +86,7 @@ class Binder {
   [[nodiscard]] std::size_t new_swing() noexcept { return compiled_->swings++; }
   [[nodiscard]] std::size_t new_travel() noexcept { return compiled_->travels++; }
   void fault(const Place& place, std::string message);
-  /// Does what may throw. @returns whether it did not; each problem that it lists is told
+  /// Calls `make`, which may throw. @returns whether it did not; each problem that the exception lists is reported
   template <class Make>
   bool attempt(const Place& place, const Make& make) {
     try {
@@ -107,7 +107,7 @@ class Binder {
   const Operation* bind_pose(std::size_t index);
   const Operation* bind_clip(std::size_t index);
   void count_askers();
-  /// As whoever names it sees it.
+  /// The operation as used by others: remembered where several use it.
   [[nodiscard]] const Operation* seen(const Operation* operation, const std::string& name);
   const Operation* add(std::unique_ptr<Operation> operation);
 
@@ -120,15 +120,15 @@ class Binder {
   struct Made {
     enum class Stage { waiting, making, made } stage = Stage::waiting;
     const Operation* operation = nullptr;
-    double size = 0;        // operations that one evaluation may come to
+    double size = 0;        // operations in one evaluation
     std::size_t depth = 0;  // operations one in another
-    std::size_t rooms = 0;  // poses that its operands work in
+    std::size_t rooms = 0;  // scratch poses that its operands need
   };
   std::vector<Made> made_;                          // by pose
-  std::map<std::size_t, const Operation*> played_;  // clips that are named as poses
-  std::map<std::string, int> askers_;               // by name: how often it is asked for one pose, or more often
+  std::map<std::size_t, const Operation*> played_;  // clips used as poses by their names
+  std::map<std::string, int> askers_;               // by name: how many users it has; springs count as several
   std::map<const Operation*, const Operation*> remembered_;
-  std::vector<std::size_t> making_;  // poses, the outermost first
+  std::vector<std::size_t> making_;  // the poses being made, the outermost first
 };
 
 }  // namespace tweenfall::graphs

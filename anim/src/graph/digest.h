@@ -1,6 +1,6 @@
 #pragma once
 
-// Many numbers and texts as one number.
+// A hash of numbers and texts.
 
 #include <bit>
 #include <cstdint>

@@ -32,7 +32,8 @@ void write_at_rest(const Hierarchy& nodes, std::span<Motion> out) {
 
 void require_time(double time, double least) {
   if (!(time >= least) || !std::isfinite(time))
-    throw std::invalid_argument("a graph goes to a finite time of 0 s or later, not to " + number_text(time) + " s");
+    throw std::invalid_argument("a graph can be sought to a finite time of 0 s or later, not to " + number_text(time) +
+                                " s");
 }
 
 std::size_t parameter_named(const GraphDescription& description, std::string_view name) {
@@ -89,7 +90,7 @@ void GraphPlayer::know(double time) {
   if (log.lacks) recall();
 }
 
-// All that was passed follows from what came in: it is passed again.
+// Everything that happened follows from the inputs: it is computed again.
 void GraphPlayer::recall() {
   graphs::Log& log = run_->log;
   const double known = log.known;
@@ -102,7 +103,7 @@ void GraphPlayer::recall() {
 void GraphPlayer::set(std::string_view name, double value) {
   const std::size_t parameter = graphs::parameter_named(graph_->description(), name);
   if (graph_->description().parameters[parameter].curve)
-    throw std::invalid_argument("the parameter \"" + std::string(name) + "\" has keys, and is not set");
+    throw std::invalid_argument("the parameter \"" + std::string(name) + "\" has keys and cannot be set");
   if (!(std::abs(value) <= graphs::largest_parameter))
     throw std::invalid_argument("the parameter \"" + std::string(name) + "\" is set to a number up to 1e15, not to " +
                                 number_text(value));
@@ -126,7 +127,7 @@ void GraphPlayer::send(std::string_view event) {
 namespace graphs {
 namespace {
 
-/// @param counts  by where it came from
+/// @param counts whether an origin counts
 template <class Counts>
 std::vector<GraphInput> inputs_of(const Log& log, const GraphDescription& description, const Counts& counts) {
   std::vector<GraphInput> inputs;
@@ -154,7 +155,7 @@ std::vector<GraphInput> GraphPlayer::own_inputs() const {
 }
 
 void GraphPlayer::advance(double dt) {
-  if (!(dt >= 0)) throw std::invalid_argument("a graph goes on by 0 s or more, not by " + number_text(dt) + " s");
+  if (!(dt >= 0)) throw std::invalid_argument("a graph advances by 0 s or more, not by " + number_text(dt) + " s");
   seek(run_->time + dt);
 }
 
@@ -207,7 +208,7 @@ Sample<double> GraphPlayer::parameter(std::string_view name) const {
 }
 
 std::vector<GraphEvent> GraphPlayer::events(double from, double to) {
-  if (std::isnan(from)) throw std::invalid_argument("events are asked for between two times");
+  if (std::isnan(from)) throw std::invalid_argument("events are found between two times; the first is not a number");
   graphs::require_time(to, 0);
   know(to);
   std::vector<GraphEvent> events;
@@ -240,10 +241,11 @@ std::optional<double> GraphPlayer::first_instant(double from, double to) {
   };
   for (const graphs::Record<graphs::Setting>& settings : run_->log.settings) meet(settings, &graphs::Setting::time);
   for (const graphs::Record<graphs::Passage>& passages : run_->log.passages) meet(passages, &graphs::Passage::time);
-  // Where ways go on over the seams of loops, what jumps in a clip may not jump in the pose. Of very many seams in one
-  // stretch the rest are told as they are; but where they follow each other faster than any frames, as those before.
+  // Where root motion continues over the seams of loops, a jump of a clip may not be a jump of the pose. If there are
+  // very many seams in one stretch, the rest count as jumps unchecked; but if they follow each other faster than any
+  // frames, they count as the ones before did.
   constexpr int most_looked_at = 64;
-  constexpr double dense = 1e-3;  // s from one to the next, in the mean
+  constexpr double dense = 1e-3;  // mean distance between seams, s
   const bool may_go_on = graph_->compiled().travels > 0;
   std::vector<Motion> before(may_go_on ? graph_->nodes().size() : 0), behind(before.size());
   const auto goes_on = [&](double time) {
@@ -305,7 +307,7 @@ std::vector<std::byte> GraphPlayer::save() const {
 
 void GraphPlayer::load(std::span<const std::byte> saved) {
   graphs::SavedLog read = graphs::log_of(saved, graph_->description(), graph_->compiled().sizes());
-  // To make known what happened forgets how far springs had come.
+  // Computing what happened forgets how far springs were followed.
   std::vector<graphs::SwingMemory> swings = read.log.swings;
   graphs::make_known(read.log, *graph_, read.time, run_->ground, run_->room);
   read.log.swings = std::move(swings);

@@ -7,7 +7,7 @@
 namespace tweenfall::graphs {
 
 struct GraphStack::Runner {
-  // Questions about many nodes at one time, and about both ends of a step, are many.
+  // Poses kept, because many nodes are sampled at the same time, and often at both ends of a step.
   struct Kept {
     double time = -1;
     Side side = Side::out;
@@ -15,11 +15,11 @@ struct GraphStack::Runner {
   };
 
   Runner(GraphGround below, std::size_t nodes, std::size_t graphs) : plays(std::move(below)) {
-    players.reserve(graphs);  // each is asked by the next
+    players.reserve(graphs);  // no reallocation: each is used by the next
     for (Kept& each : kept) each.local.resize(nodes);
   }
 
-  /// What the graph of that number lies on.
+  /// The ground of a graph.
   [[nodiscard]] GraphGround over(std::size_t graph) {
     if (graph == 0) return plays;
     GraphPlayer& player = players[graph - 1];
@@ -42,7 +42,7 @@ struct GraphStack::Runner {
       player.set(input.name, *input.value);
     else
       player.send(input.name);
-    // Those above lie on another ground from then on.
+    // The graphs above have another ground from then on.
     for (std::size_t i = graph + 1; i < players.size(); ++i) players[i] = GraphPlayer(players[i], over(i), input.time);
     for (Kept& each : kept) each.time = -1;
   }
@@ -138,7 +138,7 @@ void GraphStack::put_all_of(const GraphStack& others) {
 }
 
 GraphPlayer GraphStack::player(const std::shared_ptr<const GraphStack>& stack, std::size_t graph, double time) {
-  // It outlives this question, and asks for what lies below it on its own.
+  // It outlives this call, and samples what lies below it on its own.
   GraphGround ground = stack->plays_;
   if (graph > 0) {
     ground.pose = [stack, graph](double at, Side side, std::span<Motion> out) {

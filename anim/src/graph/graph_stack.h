@@ -1,10 +1,10 @@
 #pragma once
 
-// The graphs of an animation, each over the one before, the first over the plays; asked from anywhere at any time.
+// The graphs of an animation, each over the one before, the first over the plays; for use from any thread at any time.
 //
-// What came in to them never changes. What follows from it is found by runners, which remember how far they have come;
-// each is lent to one question at a time. Whoever asks from one thread gets the same one again, without a lock; one who
-// asks meanwhile from another thread gets another one, which is made where there is none yet.
+// The inputs never change. Their consequences are computed by runners, which remember how far they have come; each
+// runner is lent to one call at a time. Calls from one thread get the same runner again, without a lock; a concurrent
+// call from another thread gets another one, which is created if necessary.
 
 #include <tweenfall/anim/animation.h>
 #include <tweenfall/anim/graph_player.h>
@@ -26,7 +26,7 @@ class GraphStack {
   /// @throws std::invalid_argument listing all faults of the first that has any
   GraphStack(const std::shared_ptr<const Hierarchy>& nodes, const std::shared_ptr<const std::vector<Clip>>& clips,
              std::vector<GraphDescription> descriptions, GraphGround plays);
-  /// Graphs with the same past, over plays that may be others from a time on.
+  /// Graphs with the same past, over plays that may differ from the time `from` on.
   GraphStack(const GraphStack& other, GraphGround plays, double from);
   ~GraphStack();
   GraphStack(const GraphStack&) = delete;
@@ -35,17 +35,17 @@ class GraphStack {
   [[nodiscard]] std::span<const GraphDescription> descriptions() const noexcept { return *descriptions_; }
   [[nodiscard]] bool moves(std::size_t node) const noexcept;
 
-  // What comes in. Nobody else may know the stack yet.
+  // Input. Only before the stack is shared.
   /// @throws std::invalid_argument as `GraphPlayer` does
   void put(std::size_t graph, const GraphInput& input);
-  /// What came in to others of the same names.
+  /// Adds the inputs of other graphs to those of the same names.
   void put_all_of(const GraphStack& others);
 
-  /// One of them at a time, for whoever keeps `stack`.
+  /// A player for one graph at a time; it keeps `stack` alive.
   [[nodiscard]] static GraphPlayer player(const std::shared_ptr<const GraphStack>& stack, std::size_t graph,
                                           double time);
 
-  /// Of the nodes that it was made for. Times before 0, and those that are none, are taken as 0.
+  /// Writes the motions of the nodes that it was made for. Times before 0, and NaN, count as 0.
   void sample(double time, Side side, std::span<Motion> local) const;
   [[nodiscard]] Motion sample_node(std::size_t node, double time, Side side) const;
   [[nodiscard]] NodeLook look(std::size_t node, double time, Side side) const;
@@ -59,7 +59,7 @@ class GraphStack {
  private:
   static constexpr double infinite_time = std::numeric_limits<double>::infinity();
   struct Runner;
-  /// A runner for as long as a question lasts.
+  /// A runner for the duration of one call.
   class Lent;
   struct Put {
     std::size_t graph;
@@ -73,11 +73,11 @@ class GraphStack {
   std::shared_ptr<const std::vector<GraphDescription>> descriptions_;
   std::size_t nodes_;
   GraphGround plays_;
-  Record<Put> puts_;  // as they came
+  Record<Put> puts_;  // in the order in which they were added
   mutable std::array<std::atomic<Runner*>, most_idle> idle_{};
 };
 
-/// Plays as what graphs lie on. @param plays  without graphs
+/// The plays as the ground of graphs. @param plays without graphs
 [[nodiscard]] GraphGround ground_of(const Animation& plays);
 
 }  // namespace tweenfall::graphs

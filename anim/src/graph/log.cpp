@@ -22,7 +22,7 @@ Sample<double> sample_of(const Setting& setting, double half_life, double time) 
   return sample;
 }
 
-// What is seen goes on from where it is, in value and rate, whatever it follows from there.
+// The value that poses see continues with its value and rate, whatever it follows from now on.
 void add(Record<Setting>& settings, double half_life, Setting setting) {
   setting.offset = setting.rate = 0;
   if (half_life >= shortest_change && !settings.empty()) {
@@ -33,14 +33,14 @@ void add(Record<Setting>& settings, double half_life, Setting setting) {
   settings.push_back(setting);
 }
 
-/// Index of the first entry of which `is_late` holds; only of those whose time is `time` or later it may.
+/// Index of the first entry for which `is_late` holds; it must not hold for entries before `time`.
 template <class T, class Late>
 std::size_t first_late(const Record<T>& list, double time, const Late& is_late) {
   const auto from = std::ranges::lower_bound(list, time, {}, &T::time);
   return static_cast<std::size_t>(std::find_if(from, list.end(), is_late) - list.begin());
 }
 
-/// @param is_late  holds of none before `time`
+/// @param is_late must not hold for entries before `time`
 template <class Late>
 void forget(Log& log, const GraphDescription& description, double time, const Late& is_late) {
   for (std::size_t p = 0; p < log.settings.size(); ++p) {
@@ -65,7 +65,7 @@ void forget(Log& log, const GraphDescription& description, double time, const La
 
 }  // namespace
 
-// Where phases, springs and figures have come until `time` does not hang on what is later.
+// How far phases, springs and root motion have come until `time` does not depend on what is later.
 void forget_marks(const Log& log, double time) noexcept {
   for (PhaseTrails& trails : log.phases) trails.forget_after(time);
   for (TravelTrails& trails : log.travels) trails.forget_after(time);
@@ -134,7 +134,7 @@ void send(Log& log, double time, std::string_view event, Origin origin) {
 
 void forget_course(Log& log, const GraphDescription& description, double time) {
   forget(log, description, time, [&](const auto& each) { return each.time >= time && each.origin == Origin::event; });
-  // Springs may have followed what is another from then on, on a clock that began before.
+  // Springs whose clock began before may have followed a base that is different from then on.
   for (SwingMemory& memory : log.swings)
     for (SwingCourse& course : memory.courses) {
       for (SwingMark& mark : course.latest)

@@ -1,6 +1,6 @@
 #pragma once
 
-// What happened to a graph: what came in from outside, and what followed from it.
+// What happened to a graph: its inputs, and what followed from them.
 
 #include <tweenfall/anim/graph.h>
 #include <tweenfall/anim/graph_player.h>
@@ -22,20 +22,20 @@
 
 namespace tweenfall::graphs {
 
-/// What a parameter may be: beyond it, what follows it could be at no finite place or speed.
+/// Bound on parameters: beyond it, the values and rates that follow them might not be finite.
 inline constexpr double largest_parameter = 1e15;
 
-/// What takes less than this, s, is done at once: nothing of it is seen, and nothing could be as fast.
+/// Changes that take less than this, s, happen at once: they would be invisible, with rates too large.
 inline constexpr double shortest_change = 1e-9;
 
-/// Where something that came in came from.
+/// Where an input came from.
 enum class Origin {
-  description,  // known beforehand
+  description,  // known in advance
   outside,
-  event,  // of a clip, to which the graph reacts: it follows from the others
+  event,  // a reaction to an event of a clip: it follows from the others
 };
 
-/// A parameter was set. Poses see `value`, and an offset to it that dies away.
+/// A parameter was set. Poses see `value` plus an offset that decays.
 struct Setting {
   double time = 0, value = 0;
   Origin origin = Origin::outside;
@@ -48,7 +48,7 @@ struct Sending {
   Origin origin = Origin::outside;
 };
 
-/// How far a node's motion was from where the new state has it, when that was entered.
+/// The difference of a node's motion from that of the new state, when the state was entered.
 struct Offset {
   Vec3 position{0, 0, 0}, velocity{0, 0, 0};  // of a dead blend: of the node itself
   Vec3 turn{0, 0, 0}, turn_rate{0, 0, 0};     // rotation vector
@@ -57,19 +57,19 @@ struct Offset {
 
 struct Passage : GraphPassage {
   GraphChange change = {};
-  // One per node, where the difference settles, and of late; else null. What was let go follows from the inputs again.
+  // One per node for recent passages that settle; else null. Discarded ones can be computed again from the inputs.
   std::shared_ptr<const std::vector<Offset>> offsets = {};
-  std::uint64_t trace = 0;  // of the offsets, whether they are there or not
+  std::uint64_t trace = 0;  // a hash of the offsets, whether they are kept or not
 };
 
 /// How far phases have come; see `Phase`.
 struct PhasePlace {
   double phase = 0;
-  double haste = 0;  // how much faster it goes on than by its weights, as a part of that
+  double haste = 0;  // how much faster it advances than its weights say, as a share of that
 };
 using PhaseTrails = Trails<PhasePlace, 256>;
 
-/// How far springs have come, on the clock that began at an instant; see `Swing`.
+/// How far springs have come on the clock that began at an instant; see `Swing`.
 using SwingState = std::variant<NodeSpringState, JiggleState>;
 struct SwingMark {
   double instant = -1, time = -1;  // s; below 0: nothing is marked
@@ -78,9 +78,9 @@ struct SwingMark {
 /// The springs of one operation since the state around it was entered.
 struct SwingCourse {
   double start = -1;
-  std::size_t asked = 0;  // when it was asked for last: the one that was longest ago makes room
+  std::size_t asked = 0;  // when it was used last: the least recently used one is replaced
   std::array<SwingMark, 4> latest{};
-  std::size_t oldest = 0;               // of these
+  std::size_t oldest = 0;               // index of the oldest of `latest`
   std::array<SwingMark, 16> markers{};  // each `gap` seconds or more after the one before, the first `marked` of them
   std::size_t marked = 0;
   double gap = 0.5;
@@ -91,14 +91,14 @@ struct SwingMemory {
   bool prepared = false;  // the states of all marks have their size
 };
 
-/// How far figures have come on their way; see `Travel`.
+/// How far a figure has travelled; see `Travel`.
 struct TravelPlace {
   Pose pose;
-  Twist haste;  // by how much faster it goes on than the clips have it, in its own axes
+  Twist haste;  // how much faster it moves than the clips, in its own axes
 };
 using TravelTrails = Trails<TravelPlace, 64>;
 
-/// How much there is of what a log remembers.
+/// The sizes of what a log remembers.
 struct LogSizes {
   std::size_t nodes = 0, machines = 0, phases = 0, swings = 0, travels = 0, recent = 0;
 };
@@ -108,23 +108,23 @@ struct Log {
   Record<Sending> sent;                   // in order of time
   std::vector<Record<Passage>> passages;  // by machine, in order of time
   std::vector<GraphStop> stops;
-  Record<double> instants;  // s, at which something may have happened of itself, in order
-  /// By phase of the graph: where to go on from, so that not all its way is gone again. Says nothing new.
+  Record<double> instants;  // s; times at which something may have happened without an input, in order
+  /// By phase of the graph: points to continue from, so that not everything is computed again. A cache only.
   mutable std::vector<PhaseTrails> phases;
-  /// By operation with springs: where to go on from. Says nothing new.
+  /// By operation with springs: points to continue from. A cache only.
   mutable std::vector<SwingMemory> swings;
-  /// By operation that accumulates a way: where to go on from. Says nothing new.
+  /// By operation that accumulates root motion: points to continue from. A cache only.
   mutable std::vector<TravelTrails> travels;
-  /// By operation that is asked for the same again and again. Says nothing new.
+  /// By operation that is used several times: its recent poses. A cache only.
   mutable std::vector<RecentPoses> recent;
-  /// What comes later is not seen: poses go on as if nothing happened. Springs look a little ahead so.
+  /// Later inputs are not seen: poses continue as if nothing happened. Springs look a little ahead in this way.
   mutable double until = std::numeric_limits<double>::infinity();
   bool keeps_all = false;      // offsets of all passages, not only of the latest
-  mutable bool lacks = false;  // a pose was asked for whose offsets were let go
-  double known = -1;           // all that happens until then, and at that time, is known; below 0: nothing is
+  mutable bool lacks = false;  // a pose was requested whose offsets were discarded
+  double known = -1;           // everything up to and including this time is computed; below 0: nothing is
 };
 
-/// What comes after an instant is not seen while it is looked ahead.
+/// Hides everything after an instant while looking ahead.
 class Blinkers {
  public:
   Blinkers(const Log& log, double until) noexcept : log_(log), before_(log.until) { log.until = until; }
@@ -137,7 +137,7 @@ class Blinkers {
   double before_;
 };
 
-/// The time at which what happened is looked up for a pose at a time.
+/// The time at which the log is read for a pose at a time.
 struct Sight {
   double time;
   Side side;
@@ -146,35 +146,36 @@ struct Sight {
   return time > log.until ? Sight{log.until, Side::out} : Sight{time, side};
 }
 
-/// The latest instant after `start` and before `time` (at it too, where it leaves) at which something came in or a
+/// The latest instant after `start` and before `time` (or at it, for `Side::out`) at which there was an input or a
 /// machine passed to another state; `start` where there is none.
 [[nodiscard]] double last_instant(const Log& log, double start, double time, Side side) noexcept;
-/// The first one after a time; infinity where there is none.
+/// The first such instant after a time; infinity where there is none.
 [[nodiscard]] double next_instant(const Log& log, double after) noexcept;
 
-/// A log in which nothing has happened yet but what the description gives.
+/// A log with only the inputs of the description.
 [[nodiscard]] Log fresh_log(const GraphDescription& description, const LogSizes& sizes);
 
-/// Lets go of the offsets of passages but the last few hundred. @param all  also of those that had been let go before
+/// Discards the offsets of all passages except the last few hundred. @param all also of those before which they were
+/// discarded already
 void let_go(Record<Passage>& passages, bool all);
 
-/// Puts it in, in order; of equal times behind those that are there.
+/// Adds an input in order of time, after existing ones of the same time.
 void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value,
          Origin origin);
 void send(Log& log, double time, std::string_view event, Origin origin);
 
-/// Forgets how far anything has come beyond `time`, at which something happens: it is found again.
+/// Forgets cached progress beyond `time`, at which something happens: it is computed again.
 void forget_marks(const Log& log, double time) noexcept;
 
-/// Forgets what follows from anything at `time` or later.
+/// Forgets the consequences of everything at `time` or later.
 void forget_course(Log& log, const GraphDescription& description, double time);
-/// The same, and what came from outside after `time`.
+/// The same, and also the outside inputs after `time`.
 void forget_after(Log& log, const GraphDescription& description, double time);
 
-/// What a parameter was set to.
+/// The value that a parameter was set to.
 [[nodiscard]] double value_of(const Log& log, const GraphDescription& description, std::size_t parameter, double time,
                               Side side) noexcept;
-/// What poses see of it.
+/// The value that poses see.
 [[nodiscard]] Sample<double> sample_of(const Log& log, const GraphDescription& description, std::size_t parameter,
                                        double time, Side side) noexcept;
 

@@ -12,7 +12,7 @@ namespace tweenfall::graphs {
 
 namespace {
 
-constexpr std::uint64_t kind_of_file = 0x3248504152474654;  // "TFGRAPH2", the first letter lowest
+constexpr std::uint64_t kind_of_file = 0x3248504152474654;  // "TFGRAPH2", the first letter in the lowest byte
 
 class Writer {
  public:
@@ -57,12 +57,12 @@ class Reader {
   std::span<const std::byte> part() { return next(number()); }
   [[nodiscard]] std::size_t left() const noexcept { return bytes_.size(); }
   [[noreturn]] static void refuse(const std::string& why) {
-    throw std::invalid_argument("these bytes are no saved graph: " + why);
+    throw std::invalid_argument("these bytes are not a saved graph: " + why);
   }
 
  private:
   std::span<const std::byte> next(std::uint64_t size) {
-    if (size > bytes_.size()) refuse("they end too soon");
+    if (size > bytes_.size()) refuse("they end too early");
     const std::span<const std::byte> part = bytes_.first(size);
     bytes_ = bytes_.subspan(size);
     return part;
@@ -76,7 +76,7 @@ std::uint64_t checksum(std::span<const std::byte> bytes) noexcept {
   return digest.value();
 }
 
-// Of each course the mark that has come the furthest, so that nothing of its way is gone again.
+// For each course the mark that has come the furthest, so that nothing is computed again.
 void write_swings(const SwingMemory& memory, double time, Writer& out) {
   std::vector<const SwingCourse*> courses;
   for (const SwingCourse& course : memory.courses)
@@ -95,7 +95,7 @@ void write_swings(const SwingMemory& memory, double time, Writer& out) {
 
 void read_swings(SwingMemory& memory, double time, Reader& reader) {
   const std::uint64_t count = reader.number();
-  if (count > memory.courses.size()) Reader::refuse("they have more springs than there are");
+  if (count > memory.courses.size()) Reader::refuse("they have more springs than the graph");
   for (std::uint64_t i = 0; i < count; ++i) {
     SwingCourse& course = memory.courses[i];
     course.start = reader.real();
@@ -147,17 +147,17 @@ std::vector<std::byte> bytes_of(const Log& log, const GraphDescription& descript
 }
 
 SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& description, const LogSizes& sizes) {
-  if (bytes.size() < 32) Reader::refuse("they end too soon");
+  if (bytes.size() < 32) Reader::refuse("they end too early");
   Reader reader(bytes.first(bytes.size() - 8));
-  if (reader.number() != kind_of_file) Reader::refuse("they begin as none does");
+  if (reader.number() != kind_of_file) Reader::refuse("they do not begin like a saved graph");
   if (Reader(bytes.last(8)).number() != checksum(bytes.first(bytes.size() - 8)))
-    Reader::refuse("their checksum does not fit");
+    Reader::refuse("their checksum differs");
   if (reader.number() != fingerprint(description)) Reader::refuse("they are of another graph");
   SavedLog saved{fresh_log(description, sizes), reader.real()};
   if (saved.time < 0) Reader::refuse("its time is before 0 s");
   const auto time_after = [&](double last) {
     const double read = reader.real();
-    if (read < last || read > saved.time) Reader::refuse("what came in is not in order of time");
+    if (read < last || read > saved.time) Reader::refuse("the inputs are not in order of time");
     return read;
   };
   for (std::size_t p = 0; p < description.parameters.size(); ++p) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What nodes look like in a graph.
+// Colors and morph weights of nodes in a graph.
 
 #include <tweenfall/anim/node_look.h>
 
@@ -8,7 +8,7 @@
 
 namespace tweenfall::graphs {
 
-/// The mean of what the clips that show have for a node. @param below  what it looks like below the graph
+/// The mean look of a node over the clips that show. @param below its look below the graph
 [[nodiscard]] NodeLook look_of(const Log& log, const Graph& graph, std::size_t node, const Moment& moment,
                                const NodeLook& below);
 

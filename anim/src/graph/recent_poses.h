@@ -1,6 +1,6 @@
 #pragma once
 
-// The poses that an operation was asked for last: who asks for one of them again need not wait.
+// The last poses of an operation, so that repeated requests are fast.
 
 #include <tweenfall/anim/play.h>
 #include <tweenfall/curves/pose.h>
@@ -15,18 +15,18 @@ namespace tweenfall::graphs {
 
 class RecentPoses {
  public:
-  /// What a pose follows from, for one operation of one graph.
+  /// What determines a pose of one operation of one graph.
   struct Question {
     double time = -1;  // below 0: none
     double start = 0;
-    double instant = 0;  // the last at which anything happened that is seen
+    double instant = 0;  // the last one at which something happened that is seen
     Side side = Side::out;
 
     bool operator==(const Question&) const = default;
   };
 
   RecentPoses() = default;
-  // A copy has room, and remembers nothing: it comes to the same.
+  // A copy has the memory, but remembers nothing: the results are the same.
   RecentPoses(const RecentPoses& other) : nodes_(0) { make_room(other.nodes_); }
   RecentPoses(RecentPoses&&) noexcept = default;
   RecentPoses& operator=(RecentPoses&&) noexcept = default;
@@ -36,13 +36,13 @@ class RecentPoses {
   }
   ~RecentPoses() = default;
 
-  /// All memory that is asked for.
+  /// Allocates all memory.
   void make_room(std::size_t nodes) {
     nodes_ = nodes;
     motions_.resize(kept * nodes);
   }
 
-  /// Whether it is remembered; then it is written.
+  /// Whether the pose is remembered; if so, writes it.
   [[nodiscard]] bool recall(const Question& question, std::span<Motion> out) const noexcept {
     for (std::size_t i = 0; i < kept; ++i) {
       if (questions_[i] != question || out.size() != nodes_) continue;

@@ -75,15 +75,15 @@ class Record {
     full_.push_back(std::make_shared<const std::vector<T>>(std::move(last_)));
     last_.clear();
   }
-  /// Those that copies share stand in so many pages of `page_size`, the first ones in the first.
+  /// The number of full pages of `page_size` entries, which copies share.
   [[nodiscard]] std::size_t full_pages() const noexcept { return full_.size(); }
   [[nodiscard]] const std::vector<T>& page(std::size_t i) const noexcept { return *full_[i]; }
-  /// Copies keep theirs.
+  /// Replaces a page; copies keep theirs.
   void replace_page(std::size_t i, std::vector<T> page) {
     full_[i] = std::make_shared<const std::vector<T>>(std::move(page));
   }
 
-  /// Those from `count` on are no more.
+  /// Removes the entries from `count` on.
   void truncate(std::size_t count) {
     if (count / page_size < full_.size()) {
       const std::vector<T>& page = *full_[count / page_size];
@@ -93,7 +93,7 @@ class Record {
       last_.resize(count % page_size);
     }
   }
-  /// Those from an index on, taken out.
+  /// Removes and returns the entries from an index on.
   [[nodiscard]] std::vector<T> take_from(std::size_t index) {
     std::vector<T> taken(begin() + static_cast<std::ptrdiff_t>(index), end());
     truncate(index);

@@ -39,7 +39,7 @@ SwingMark& next_mark(SwingCourse& course) noexcept {
 void keep(SwingCourse& course, const SwingMark& mark) noexcept {
   if (course.marked > 0 && mark.time < course.markers[course.marked - 1].time + course.gap) return;
   if (course.marked == course.markers.size()) {
-    // Every other one goes, and they are twice as far apart from here on.
+    // Every other one is dropped, and the distance between marks doubles.
     for (std::size_t i = 0; 2 * i + 1 < course.markers.size(); ++i)
       std::swap(course.markers[i], course.markers[2 * i + 1]);
     course.marked /= 2;

@@ -1,20 +1,20 @@
 #pragma once
 
-// What is marked of the way of springs, and from where they go on.
+// The marks kept of the course of springs, from which it is continued.
 
 #include "graph/log.h"
 
 namespace tweenfall::graphs {
 
-/// The mark that has come the furthest of those on clocks up to `instant` at times up to `time`; null for none.
+/// The furthest mark among those on clocks up to `instant` with times up to `time`; null for none.
 [[nodiscard]] const SwingMark* furthest_mark(const SwingCourse& course, double instant, double time) noexcept;
 
-/// The course since `start`, which may be a fresh one in the place of another.
+/// The course since `start`; may be a new one that replaces another.
 [[nodiscard]] SwingCourse& course_since(SwingMemory& memory, double start) noexcept;
 
-/// Where to write down the next mark, and what remembers the way to it.
+/// The place for the next mark, which replaces the oldest.
 [[nodiscard]] SwingMark& next_mark(SwingCourse& course) noexcept;
-/// Keeps a mark for those who come back from far ahead.
+/// Keeps a mark for later requests from far ahead back to near it.
 void keep(SwingCourse& course, const SwingMark& mark) noexcept;
 
 }  // namespace tweenfall::graphs

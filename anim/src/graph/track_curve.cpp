@@ -26,7 +26,7 @@ Curve<double> numbers_of(const Track& track) {
   return keyed_curve<double>(keys);
 }
 
-/// As the clip plays it, from 0 on.
+/// The curve as the clip plays it, from 0 on.
 Curve<double> played(const Curve<double>& curve, const Clip& clip) {
   if (!std::isfinite(clip.duration) || !(clip.duration > 0)) return curve;
   const Loop& loop = clip.loop;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where something that goes on and on has been, so that not all its way is gone again.
+// Where a long computation over time has been, so that it need not start again from the beginning.
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace tweenfall::graphs {
 
-/// The way since one start: where it was of late, and marks ever further apart, so that whoever goes back finds one
-/// near, and none takes more room.
+/// The course since one start: the latest places, and marks at growing distances, so that going back finds one nearby
+/// in bounded memory.
 template <class Place, std::size_t most_markers>
 class Trail {
  public:
@@ -20,9 +20,9 @@ class Trail {
   };
 
   double start = -1;
-  std::size_t asked = 0;  // when it was asked for last: the one that was longest ago makes room
+  std::size_t asked = 0;  // when it was used last: the least recently used one is replaced
 
-  /// The last one up to a time, at it too where `with` says so; null for none.
+  /// The last mark before a time, or also at it if `with`; null for none.
   [[nodiscard]] const Mark* last_mark(double time, bool with = true) const noexcept {
     const auto is_before = [&](const Mark& mark) { return mark.time < time || (with && mark.time == time); };
     const Mark* found = nullptr;
@@ -34,11 +34,11 @@ class Trail {
     return found;
   }
 
-  /// It comes by here.
+  /// The computation passes this place.
   void pass(double time, const Place& place) noexcept {
     if (marked_ > 0 && time < markers_[marked_ - 1].time + gap_) return;
     if (marked_ == most_markers) {
-      // Every other one goes, and they are twice as far apart from here on.
+      // Every other mark is dropped, and the distance between marks doubles.
       for (std::size_t i = 0; 2 * i + 1 < most_markers; ++i) markers_[i] = markers_[2 * i + 1];
       marked_ /= 2;
       gap_ *= 2;
@@ -46,7 +46,7 @@ class Trail {
     }
     markers_[marked_++] = {time, place};
   }
-  /// Somebody asked for what is just ahead of here.
+  /// The computation stopped here for a request just ahead.
   void stay(double time, const Place& place) noexcept {
     pass(time, place);
     latest_[oldest_] = {time, place};
@@ -67,7 +67,7 @@ class Trail {
   double gap_ = 1.0 / 16;
 };
 
-/// Those since the starts that were asked for last.
+/// The trails since the starts used most recently.
 template <class Place, std::size_t most_markers>
 class Trails {
  public:

@@ -10,14 +10,14 @@ namespace tweenfall {
 namespace limbs {
 namespace {
 
-// Along one axis: the four heights that count, and how much of each is in the value, its slope and its bend.
+// Along one axis: the four heights used, and their weights in the value, its slope and its second derivative.
 struct Span {
   std::size_t at[4];
   double value[4], slope[4], bend[4];
 };
 
-// Source: Catmull, Rom, "A class of local interpolating splines", 1974. Beyond the border it goes
-// straight on.
+// Source: Catmull, Rom, "A class of local interpolating splines", 1974. Beyond the border the ground continues
+// straight.
 Span span_at(double place, std::size_t count) noexcept {
   const double last = static_cast<double>(count - 1);
   const double u = std::clamp(std::isnan(place) ? 0.0 : place, 0.0, last);
@@ -29,7 +29,7 @@ Span span_at(double place, std::size_t count) noexcept {
       {((2 - f) * f - 1) * f / 2, ((3 * f - 5) * f * f + 2) / 2, ((4 - 3 * f) * f + 1) * f / 2, (f - 1) * f * f / 2},
       {(4 - 3 * f) * f / 2 - 0.5, (9 * f - 10) * f / 2, (8 - 9 * f) * f / 2 + 0.5, (3 * f - 2) * f / 2},
       {2 - 3 * f, 9 * f - 5, 4 - 9 * f, 3 * f - 1}};
-  const auto lean = [&](double(&shares)[4]) {  // a height that is not there goes straight on from the two beside it
+  const auto lean = [&](double(&shares)[4]) {  // a missing height is extrapolated from the two beside it
     if (cell == 0) {
       shares[1] += 2 * shares[0];
       shares[2] -= shares[0];

@@ -1,6 +1,6 @@
 #pragma once
 
-// A place of an operation, whose node and parameters have been found.
+// A place of an operation, bound to its node and parameters.
 
 #include "operations/changing.h"
 
@@ -13,7 +13,7 @@ class BoundPlace {
  public:
   BoundPlace(std::size_t node, std::array<Number, 3> at) : node_(node), at_(std::move(at)) {}
 
-  /// In the world, with its velocity. @param pose  of all nodes
+  /// The place in the world, with its velocity. @param pose of all nodes
   [[nodiscard]] Sample<Vec3> sample(const Log& log, const Moment& moment, const Hierarchy& nodes,
                                     std::span<const Motion> pose) const noexcept;
 
@@ -26,7 +26,7 @@ class BoundPlace {
 [[nodiscard]] std::optional<BoundPlace> bound_place(const GraphPlace& described, const Place& place,
                                                     std::size_t carried, Binder& binder);
 
-/// Where a node is in the world.
+/// World motion of a node.
 [[nodiscard]] inline WorldMotion world_of(std::size_t node, const Hierarchy& nodes,
                                           std::span<const Motion> pose) noexcept {
   return nodes.world_motion(node, [&](std::size_t i) -> const Motion& { return pose[i]; });

@@ -19,7 +19,7 @@ bool compares(Kind kind, double value, double level) noexcept {
   return kind == Kind::below ? value < level : value == level;
 }
 
-// Halves until the two are neighbors among all numbers: the first at which the curve compares.
+// Bisects until the two times are adjacent doubles; returns the first at which the comparison holds.
 double first_between(const Curve<double>& curve, Kind kind, double level, double no, double yes) {
   for (;;) {
     const double middle = no + (yes - no) / 2;
@@ -96,7 +96,7 @@ std::optional<double> first_within(const Curve<double>& curve, const Around& aro
     times.push_back(end);
     for (const double next : times) {
       if (!(next > at)) continue;
-      // Between two of them a curve stays on one side.
+      // Between two crossings the curve stays on one side.
       const double middle = at + (next - at) / 2;
       for (const double time : {middle, next}) {
         if (!(time > at)) continue;
@@ -154,7 +154,7 @@ std::optional<double> Condition::next(const Log& log, const GraphDescription& de
     case Kind::equals:
       if (const auto& curve = description.parameters[parameter].curve)
         return first_compared(*curve, kind, value, after, until);
-      return std::nullopt;  // when it is set
+      return std::nullopt;  // changes only by an input
     case Kind::time_in_state:
       return later(state.since + value);
     case Kind::clip_end:
@@ -166,7 +166,7 @@ std::optional<double> Condition::next(const Log& log, const GraphDescription& de
 }
 
 std::optional<Condition> bound(const GraphCondition& condition, const Place& place, Binder& binder) {
-  if (!std::isfinite(condition.value)) binder.fault(place, "this is held against a finite number");
+  if (!std::isfinite(condition.value)) binder.fault(place, "this is compared with a finite number");
   switch (condition.kind) {
     case Kind::above:
     case Kind::below:

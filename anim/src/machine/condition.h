@@ -1,6 +1,6 @@
 #pragma once
 
-// When a transition may be taken: the first instant at which it is so, exactly.
+// The conditions of transitions: the exact first instant at which one holds.
 
 #include "graph/binder.h"
 
@@ -21,11 +21,11 @@ struct Condition {
   std::size_t parameter = 0;
   double value = 0;
 
-  /// Whether it holds at a time. @param event  the one that is told; empty: those of the state's clips at that time
+  /// Whether it holds at a time. @param event the event handled; empty: those of the state's clips at that time
   [[nodiscard]] bool holds(const Log& log, const GraphDescription& description, const Standing& state, double time,
                            std::optional<std::string_view> event) const;
 
-  /// The first time in (after, until] at which it may come to hold by itself, without an input.
+  /// The first time in (after, until] at which it may begin to hold without an input.
   [[nodiscard]] std::optional<double> next(const Log& log, const GraphDescription& description, const Standing& state,
                                            double after, double until) const;
 };

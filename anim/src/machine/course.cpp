@@ -31,7 +31,7 @@ class Course {
  private:
   static const Machine& as_machine(const Operation& operation) { return static_cast<const Machine&>(operation); }
 
-  /// The first time up to `until` at which something came in.
+  /// The time of the first input up to `until`.
   [[nodiscard]] std::optional<double> next_told(double until) const {
     std::optional<double> first;
     const auto meet = [&](double time) {
@@ -45,7 +45,7 @@ class Course {
     return first;
   }
 
-  /// The first one at which something may happen of itself.
+  /// The first time at which something may happen without an input.
   [[nodiscard]] std::optional<double> next_own(double until) const {
     std::optional<double> first;
     if (log_.instants.size() >= most_own_instants) return first;
@@ -59,7 +59,7 @@ class Course {
     return first;
   }
 
-  /// The first in (after, until] of a clip, in the graph or below it.
+  /// The first event of a name in (after, until], of a clip in the graph or below it.
   [[nodiscard]] std::optional<double> next_event(const std::string& name, double after, double until) const {
     std::optional<double> first = graph_.compiled().output->next_event(log_, name, 0, after, until);
     if (ground_.next_event)
@@ -67,7 +67,7 @@ class Course {
     return first;
   }
 
-  /// Whether it happens at a time in a clip that shows.
+  /// Whether an event happens at a time in a clip that shows.
   [[nodiscard]] bool happens(const std::string& name, double time) const {
     const double before = std::nextafter(time, -1.0);
     if (ground_.next_event && ground_.next_event(name, before, time)) return true;
@@ -79,7 +79,8 @@ class Course {
     });
   }
 
-  // A state that is entered may begin on an event, to which the graph reacts, too: on and on, but each time anew.
+  // A state that is entered may begin with an event to which the graph reacts in turn; repeated until nothing new
+  // happens.
   void happen(double time) {
     const std::vector<GraphReaction>& reactions = graph_.description().reactions;
     std::vector<char> reacted(reactions.size(), 0);
@@ -94,7 +95,7 @@ class Course {
     log_.known = time;
   }
 
-  /// Whether the graph reacted to an event to which it had not.
+  /// Carries out reactions that have not yet been at this instant. @returns whether there were any
   bool react(double time, std::vector<char>& reacted) {
     const std::vector<GraphReaction>& reactions = graph_.description().reactions;
     bool any = false;
@@ -111,8 +112,8 @@ class Course {
     return any;
   }
 
-  // Events of clips and what needs none come first, then what was sent, each through one transition.
-  // @param told  the first of those that were sent which it has not been told yet
+  // Transitions by events of clips, or without events, come first; then each event that was sent may take one.
+  // @param told index of the first sent event that was not handled yet
   void happen(std::size_t number, double time, std::size_t told) {
     const Machine& machine = as_machine(*graph_.compiled().machines[number]);
     if (taken_[number] >= most_transitions_at_once) return;
@@ -171,7 +172,7 @@ void make_known(Log& log, const Graph& graph, double until, const GraphGround& g
 std::size_t rooms_of(const Graph& graph) noexcept {
   std::size_t most = 0;
   for (const auto& operation : graph.compiled().operations) most = std::max(most, operation->rooms());
-  return most + 4;  // two that lie below, and two that are compared
+  return most + 4;  // two for the poses below, and two to compare
 }
 
 }  // namespace tweenfall::graphs

@@ -1,22 +1,22 @@
 #pragma once
 
-// The course of a graph: what follows from what came in, instant by instant.
+// The course of a graph: the consequences of its inputs, instant by instant.
 
 #include "machine/machine.h"
 
 namespace tweenfall::graphs {
 
-/// Of each machine at most so many transitions are kept; then it stays where it is.
+/// At most this many transitions are kept for each machine; then it stays where it is.
 inline constexpr std::size_t most_passages = 1'000'000;
 
-/// So often a graph looks what happens of itself, as time goes on and clips tell their events; then only what comes in
-/// leads it anywhere, so that no time is too far away to be asked for.
+/// At most this many instants without an input are examined, such as events of clips; after that only inputs have an
+/// effect, so that no time is too far away to be requested.
 inline constexpr std::size_t most_own_instants = 1'000'000;
 
-/// Makes known what happens until a time. @param room  `rooms_of` poses
+/// Computes what happens until a time. @param room `rooms_of` poses
 void make_known(Log& log, const Graph& graph, double until, const GraphGround& ground, std::span<Motion> room);
 
-/// Poses that a graph is evaluated in.
+/// The number of scratch poses for evaluating a graph.
 [[nodiscard]] std::size_t rooms_of(const Graph& graph) noexcept;
 
 }  // namespace tweenfall::graphs

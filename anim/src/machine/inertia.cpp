@@ -7,13 +7,13 @@ namespace tweenfall::graphs {
 
 namespace {
 
-// As far as a spring is followed: what is left then is less than any rounding.
+// How long a spring is followed: after that the remainder is less than rounding.
 constexpr double half_lives = 128;
 
 Offset offset_of(const Motion& shown, const Motion& next, bool dead_blend) {
   Offset offset;
   // shown = exp(turn) next; differentiated: w_shown = J_left(turn) turn' + exp(turn) w_next, and J_left(r) =
-  // J_right(-r) What neither state moves is to keep its bits.
+  // J_right(-r). Nodes that neither state moves keep their bits.
   const bool turns = shown.pose.rotation.coeffs() != next.pose.rotation.coeffs();
   Quat turned(1, 0, 0, 0);
   if (turns) turned = shown.pose.rotation * next.pose.rotation.conjugate();
@@ -37,7 +37,7 @@ Sample<double> left_of(const GraphChange& change, double offset, double rate, do
   return QuinticDecay(offset, rate, change.seconds).sample(since);
 }
 
-// Adds what is left of an offset, number by number.
+// Adds the remainder of an offset, component by component.
 void add_left(const GraphChange& change, const Vec3& offset, const Vec3& rate, double since, Vec3& value,
               Vec3& value_rate) noexcept {
   for (int i = 0; i < 3; ++i) {
@@ -47,7 +47,7 @@ void add_left(const GraphChange& change, const Vec3& offset, const Vec3& rate, d
   }
 }
 
-// Fades from the straight continuation of what was: `fade` of it is left.
+// Fades from the straight continuation of the old motion, which still has the weight `fade`.
 void fade_out(const Vec3& from, const Vec3& from_rate, double since, double fade, double fade_rate, Vec3& value,
               Vec3& rate) noexcept {
   const Vec3 apart = from + since * from_rate - value;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The difference between what was shown and what shall be, and how it dies away.
+// The difference between the pose shown and that of the new state, and its decay.
 
 #include "graph/log.h"
 
@@ -8,14 +8,14 @@
 
 namespace tweenfall::graphs {
 
-/// From what was shown to what the new state shows, at the same instant.
+/// The offsets of the pose shown from that of the new state, at the same instant.
 [[nodiscard]] std::vector<Offset> offsets_of(const GraphChange& change, std::span<const Motion> shown,
                                              std::span<const Motion> next);
 
-/// How long it takes until nothing is left, s.
+/// The time until the offset is gone, s.
 [[nodiscard]] double settling_time(const GraphChange& change) noexcept;
 
-/// What is left of the offsets after `since` seconds, put on top of `motions`.
+/// Adds the remainder of the offsets after `since` seconds to `motions`.
 void settle(const GraphChange& change, std::span<const Offset> offsets, double since,
             std::span<Motion> motions) noexcept;
 

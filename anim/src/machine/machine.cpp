@@ -19,7 +19,7 @@ struct ShownPassage {
 };
 using ShownPassages = std::array<ShownPassage, most_fades_at_once + 1>;
 
-/// Where it ends it arrives at the rate that it had.
+/// Whether a change is over. On arrival at its end it still has its rate.
 bool is_done(double seconds, double since, Side side) noexcept {
   return since > seconds || (since == seconds && (side == Side::out || seconds == 0));
 }
@@ -39,7 +39,7 @@ std::size_t shown_at(const Passages& passages, double time, Side side, ShownPass
   std::size_t count = 0;
   for (std::size_t i = passages.count; i-- > 0 && count < shown.size();) {
     const Passage& passage = passages[i];
-    // What was left in no time never showed.
+    // A state that was left at the instant it was entered never showed.
     if (i + 1 < passages.count && passages[i + 1].time == passage.time) continue;
     const bool first = passages[0].time == passage.time;
     const Sample<double> weight =
@@ -51,7 +51,7 @@ std::size_t shown_at(const Passages& passages, double time, Side side, ShownPass
   return count;
 }
 
-/// Those that there were before a time, or at it.
+/// The passages before a time, or also at it for `Side::out`.
 Passages until(const Record<Passage>& passages, double time, Side side) noexcept {
   const auto later = [&](double t, const Passage& each) { return side == Side::out ? t < each.time : t <= each.time; };
   const auto next = std::upper_bound(passages.begin(), passages.end(), time, later);
@@ -102,7 +102,7 @@ void Machine::bearers(const Log& log, const Moment& moment, std::size_t node, co
   for (std::size_t i = passages.count; i-- > 0;) {
     const Passage& passage = passages[i];
     if (i + 1 < passages.count && passages[i + 1].time == passage.time) continue;
-    // Where a difference settles, what was before bears on for as long.
+    // Where a difference settles, the clips before it keep moving the figure for that long.
     GraphChange change = passage.change;
     if (passage.settles) change = {.seconds = std::min(settling_time(change), 4 * change.seconds)};
     const double since = moment.time - passage.time;
@@ -121,7 +121,7 @@ std::vector<GraphActivity> Machine::activity(const Log& log, double time) const 
   const Passages passages = until(log.passages[number_], time, Side::out);
   const std::size_t count = shown_at(passages, time, Side::out, shown);
   std::vector<GraphActivity> out;
-  Sample<double> left{1, 0, 0};  // what those above leave
+  Sample<double> left{1, 0, 0};  // the weight that the ones above leave
   for (std::size_t i = 0; i < count; ++i) {
     const Passage& passage = *shown[i].passage;
     const Sample<double>& weight = shown[i].weight;
@@ -140,7 +140,7 @@ std::vector<GraphActivity> Machine::activity(const Log& log, double time) const 
 namespace {
 
 /// Calls `visit(passage, from, to)` with each stretch in (from, to] in which a state was the latest, until it returns
-/// false. The instant at which it was entered is its own too.
+/// false. The instant at which a state was entered belongs to it too.
 template <class Visit>
 void for_each_stretch(const Record<Passage>& passages, double from, double to, const Visit& visit) {
   auto passage = std::ranges::upper_bound(passages, from, {}, &Passage::time);
@@ -180,7 +180,7 @@ double Machine::end(const Log& log, double) const noexcept {
 }
 
 std::optional<double> Machine::next_jump(const Log& log, double, double after, double until) const {
-  // Of all that show at the start of the stretch, fading ones too, and that come to show in it.
+  // For all states that show at the start of the stretch, including fading ones, and all that are entered in it.
   const Record<Passage>& all = log.passages[number_];
   const Passages before = tweenfall::graphs::until(all, after, Side::out);
   ShownPassages shown;
@@ -235,7 +235,7 @@ Passage Machine::passage(const Log& log, std::size_t index, double time) const {
   passage.change = transition.change;
   ShownPassages shown;
   const Record<Passage>& passages = log.passages[number_];
-  if (passages.front().time == time) return passage;  // nothing has shown
+  if (passages.front().time == time) return passage;  // nothing was shown before
   const std::size_t count = shown_at(until(passages, time, Side::in), time, Side::in, shown);
   const bool fades = transition.change.kind == GraphChange::Kind::fade;
   passage.settles = !fades || (count > most_fades_at_once && transition.change.seconds > 0);

@@ -1,12 +1,12 @@
 #pragma once
 
-// A machine: its states, the way between them, and what shows of it.
+// A state machine: its states, its transitions, and its pose.
 
 #include "machine/condition.h"
 
 namespace tweenfall::graphs {
 
-/// The first so many of a machine's.
+/// The first `count` passages of a machine.
 struct Passages {
   const Record<Passage>* list;
   std::size_t count;
@@ -25,7 +25,7 @@ class Machine : public Operation {
   Machine(const GraphDescription& description, std::size_t number, std::vector<const Operation*> states,
           std::vector<Transition> transitions, std::size_t start);
 
-  // What shows
+  // Output
   void pose(const Log& log, const Moment& moment, const Scratch& scratch,
             std::span<Motion> out) const noexcept override;
   [[nodiscard]] std::vector<const Operation*> operands() const override { return states_; }
@@ -39,18 +39,18 @@ class Machine : public Operation {
                Bearers& out) const noexcept override;
   [[nodiscard]] std::vector<GraphActivity> activity(const Log& log, double time) const;
 
-  // What happens
+  // Course
   void begin(Log& log) const;
-  /// The first time in (after, until] at which it may leave the state it is in, without an input.
+  /// The first time in (after, until] at which it may leave its state without an input.
   [[nodiscard]] std::optional<double> next_instant(const Log& log, double after, double until) const;
-  /// The first transition that may be taken at a time; none: `no_transition`.
-  /// @param event  the one that is told; empty: those of the state's clips
+  /// The first transition whose conditions hold at a time; `no_transition` for none.
+  /// @param event the event handled; empty: those of the state's clips
   [[nodiscard]] std::size_t transition_at(const Log& log, double time, std::optional<std::string_view> event) const;
   [[nodiscard]] const Transition& transition(std::size_t index) const noexcept { return transitions_[index]; }
-  /// The passage by which a transition leads on. Where its difference settles, that is still to be measured.
+  /// The passage made by a transition. If its difference settles, that must still be measured.
   [[nodiscard]] Passage passage(const Log& log, std::size_t transition, double time) const;
-  /// Measures it, before the passage is in the log. @param below_in, below_out  what lies below the graph, as it
-  /// arrives and leaves, and at any time  @param free  `rooms() + 2` poses
+  /// Measures the difference, before the passage is in the log. @param below_in, below_out, below the pose below the
+  /// graph, arriving and leaving, and at any time @param free `rooms() + 2` poses
   void measure(const Log& log, Passage& passage, std::span<const Motion> below_in, std::span<const Motion> below_out,
                const PoseBelow* below, Motion* free) const;
 

@@ -11,7 +11,7 @@ namespace tweenfall::graphs {
 
 namespace {
 
-/// Numbers of the states that a transition leads from; false where one is not known, which is told.
+/// Binds a machine to its states and transitions; reports unknown states.
 class MachineBinder {
  public:
   MachineBinder(const MachinePose& described, Binder& binder) : described_(described), binder_(binder) {}
@@ -75,14 +75,14 @@ class MachineBinder {
     const auto place = [&](const char* part) { return Place{"machine", "transitions", std::to_string(index), part}; };
     if (!std::isfinite(change.seconds) || !(fade ? change.seconds >= 0 : change.seconds > 0))
       binder_.fault(place(fade ? "fade" : "settle"),
-                    std::string(fade ? "a fade lasts 0 s or more; this one " : "to settle takes more than 0 s; this ") +
+                    std::string(fade ? "a fade lasts 0 s or more; this one " : "settling takes more than 0 s; this ") +
                         number_text(change.seconds) + " s");
     if (change.ease && !fade) binder_.fault(place("ease"), "an ease is for fades; what settles has none");
     if (change.ease && change.ease->rule() != Ease::Rule::shape && change.ease->rule() != Ease::Rule::linear)
       binder_.fault(place("ease"), "\"" + change.ease->name() +
-                                       "\" looks at keys, and a fade has none; say \"linear\" "
+                                       "\" depends on keys, and a fade has none; say \"linear\" "
                                        "or a shape, such as \"quad-in-out\"");
-    constexpr double longest = 1e12;  // s; who waits for more waits for ever, and powers of more would be no numbers
+    constexpr double longest = 1e12;  // s; longer is practically for ever, and powers of it would overflow
     if (change.seconds > longest) return {.kind = change.kind, .seconds = longest, .ease = change.ease};
     if (change.seconds < shortest_change) return {.kind = GraphChange::Kind::fade, .seconds = 0};
     return change;
@@ -92,13 +92,13 @@ class MachineBinder {
   Binder& binder_;
 };
 
-/// A state from which transitions without conditions lead on for ever; none where there is none.
+/// A state from which transitions without conditions go on for ever; empty if there is none.
 std::optional<std::size_t> restless(const std::vector<Machine::Transition>& transitions, std::size_t states) {
   std::vector<std::size_t> next(states, states);
   for (const Machine::Transition& each : transitions)
     for (std::size_t state = 0; each.when.empty() && state < states; ++state)
       if (each.from[state] && next[state] == states) next[state] = each.to;
-  std::vector<std::size_t> walk(states, states);  // on which each was met
+  std::vector<std::size_t> walk(states, states);  // the walk on which each state was visited
   for (std::size_t start = 0; start < states; ++start)
     for (std::size_t at = start; at < states; at = next[at]) {
       if (walk[at] == start) return at;

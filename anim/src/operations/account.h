@@ -1,6 +1,6 @@
 #pragma once
 
-// What an operation says of itself: its words, what it is made of, and a number that changes with anything it says.
+// The description of an operation: its words, its operands, and a number that changes with any of its settings.
 
 #include <tweenfall/anim/graph.h>
 
@@ -19,11 +19,11 @@ class Account {
   std::string words;
   std::vector<GraphOperand> operands;
 
-  /// A pose that it is made of; an empty name is none.
+  /// Adds a pose that it uses; an empty name is ignored.
   void pose(const std::string& name, std::string role);
   void clip(const std::string& name);
 
-  /// What else it is told, in order.
+  /// Adds its other settings, in order.
   template <class... Told>
   void tell(const Told&... told) {
     (add(told), ...);
@@ -66,11 +66,11 @@ class Account {
   friend class Fingerprint;
 };
 
-/// In a word or two: "0.5", "speed", "keys"; "ball", "[0, 1, 0]".
+/// A short text: "0.5", "speed", "keys"; "ball", "[0, 1, 0]".
 [[nodiscard]] std::string words_of(const GraphNumber& number);
 [[nodiscard]] std::string words_of(const GraphPlace& place);
 
-/// How much of a change there is, to follow its words: nothing where it is always whole.
+/// The weight of a change, as a text to follow its words: empty where it is always 1.
 [[nodiscard]] std::string share_in_words(const GraphNumber& weight);
 
 }  // namespace tweenfall::graphs

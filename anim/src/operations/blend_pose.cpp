@@ -98,7 +98,7 @@ std::unique_ptr<Operation> bound(const BlendPose& described, Binder& binder) {
   if (parts.empty())
     binder.fault({"blend"}, "a blend has poses; this one has none");
   else if (nothing)
-    binder.fault({"blend"}, "these weights sum to nothing; give one above 0");
+    binder.fault({"blend"}, "these weights sum to zero; give one above 0");
   if (parts.size() > most_blended)
     binder.fault({"blend"}, "a blend takes " + std::to_string(most_blended) + " poses at most; this one has " +
                                 std::to_string(parts.size()) + ": blend blends of them");

@@ -1,6 +1,6 @@
 #pragma once
 
-// What operations that change a pose have in common: the pose, and how much they change it.
+// The common part of operations that change a pose: the pose, and how much they change it.
 
 #include "graph/binder.h"
 
@@ -8,11 +8,11 @@
 
 namespace tweenfall::graphs {
 
-/// The pose that is changed, or what lies below the graph, and by how much.
+/// The pose that is changed, or the pose below the graph, and by how much.
 struct Changed {
-  const Operation* base = nullptr;  // null: what lies below the graph
+  const Operation* base = nullptr;  // null: the pose below the graph
   Number weight{};
-  bool whole = true;  // false where something was told to be wrong
+  bool whole = true;  // false where a fault was reported
 };
 
 class Changing : public Operation {
@@ -36,7 +36,7 @@ class Changing : public Operation {
   }
 
  protected:
-  /// @param weight  some
+  /// @param weight not 0
   virtual void change(const Log& log, const Moment& moment, const Sample<double>& weight, const Scratch& scratch,
                       std::span<Motion> pose) const noexcept = 0;
 
@@ -56,7 +56,7 @@ class Changing : public Operation {
 /// A weight from 0 to 1.
 [[nodiscard]] Number bound_share(const GraphNumber& weight, const Place& place, Binder& binder);
 
-/// @param word  of the operation in documents, where its weight is said
+/// @param word the operation's word in documents, where its weight is given
 template <class Described>
 [[nodiscard]] Changed bound_change(const Described& described, const char* word, Binder& binder) {
   Changed changed;

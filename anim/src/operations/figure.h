@@ -1,6 +1,6 @@
 #pragma once
 
-// A node and all below it, as a hierarchy of its own.
+// A node and all nodes below it, as a hierarchy of their own.
 
 #include <tweenfall/anim/hierarchy.h>
 
@@ -29,7 +29,7 @@ class Figure {
   }
 
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }
-  /// The node that a joint of the figure is.
+  /// The node of each joint of the figure.
   [[nodiscard]] std::span<const std::size_t> joints() const noexcept { return joints_; }
 
   /// The figure's part of a whole pose. @param out  of the figure's size

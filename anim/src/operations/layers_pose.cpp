@@ -14,7 +14,7 @@ class Layered : public Operation {
  public:
   struct Layer {
     const Operation* pose;
-    const Operation* reference;  // of one that adds; null: what lies below the graph
+    const Operation* reference;  // for a layer that adds; null: the pose below the graph
     bool adds;
     Number weight;
     JointMask mask;
@@ -47,7 +47,7 @@ class Layered : public Operation {
     }
   }
 
-  // References tell no events.
+  // References are left out, because their events do not count.
   [[nodiscard]] std::vector<const Operation*> operands() const override {
     std::vector<const Operation*> poses;
     if (base_) poses.push_back(base_);
@@ -59,14 +59,14 @@ class Layered : public Operation {
     const auto weight = [&](const Layer& layer) {
       return as_share(layer.weight.sample(log, time, Side::out), Side::out).value;
     };
-    const std::size_t above = base_ ? operand : operand + 1;  // the first layer that lies over it
+    const std::size_t above = base_ ? operand : operand + 1;  // the first layer over it
     double share = above == 0 ? 1 : weight(layers_[above - 1]);
     for (std::size_t i = above; i < layers_.size(); ++i)
       if (!layers_[i].adds && layers_[i].mask.size() == 0) share *= 1 - weight(layers_[i]);
     return share;
   }
 
-  // What is added is taken to move no figure.
+  // Additive layers do not move the figure.
   void bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,
                Bearers& out) const noexcept override {
     Sample<double> left = weight;
@@ -119,7 +119,8 @@ std::unique_ptr<Operation> bound(const LayersPose& described, Binder& binder) {
                         .adds = layer.adds,
                         .weight = binder.number(layer.weight, place("weight")),
                         .mask = binder.mask(layer.mask, place("mask"))};
-    if (!layer.adds && !layer.reference.empty()) binder.fault(place("reference"), "only what is added has a reference");
+    if (!layer.adds && !layer.reference.empty())
+      binder.fault(place("reference"), "only a layer that adds has a reference");
     const std::optional<double> said = made.weight.constant();
     if (said && !(*said >= 0 && *said <= 1))
       binder.fault(place("weight"), "the weight of a layer is 0 to 1; it is " + number_text(*said));

@@ -51,7 +51,7 @@ std::unique_ptr<Operation> bound(const MirrorPose& described, Binder& binder) {
   if (pairs.empty()) pairs = usual_sides(figure.nodes());
   if (pairs.empty())
     binder.fault({"mirror"},
-                 "these joints have no names of sides that are known; give \"pairs\", such as "
+                 "the names of these joints do not tell sides; give \"pairs\", such as "
                  "[\"*.L\", \"*.R\"]");
   std::optional<Mirror> mirror;
   binder.attempt({"mirror"}, [&] { mirror.emplace(figure.nodes(), pairs, described.normal); });

@@ -1,6 +1,6 @@
 #pragma once
 
-// A number of an operation, whose parameter has been found.
+// A number of an operation, bound to its parameter.
 
 #include <tweenfall/curves/calculus.h>
 
@@ -28,7 +28,7 @@ class Number {
     return {constant_, 0, 0};
   }
 
-  /// Whether it may change between the times at which it is set.
+  /// Whether it may change between settings.
   [[nodiscard]] bool flows() const noexcept {
     return curve_ || (description_ && (description_->parameters[parameter_].curve ||
                                        description_->parameters[parameter_].half_life > 0));
@@ -41,7 +41,7 @@ class Number {
     const auto next = std::ranges::upper_bound(settings, after, {}, &Setting::time);
     return next == settings.end() || next->time > log.until ? never : next->time;
   }
-  /// The first setting that is not seen; infinity for none.
+  /// The first setting that is hidden while looking ahead; infinity for none.
   [[nodiscard]] double first_unseen(const Log& log) const noexcept {
     constexpr double never = std::numeric_limits<double>::infinity();
     if (!description_ || log.until == never) return never;
@@ -50,14 +50,14 @@ class Number {
     return next == settings.end() ? never : next->time;
   }
 
-  /// Whether it is a curve of keys that never comes above 0.
+  /// Whether it is a keyed curve that is never above 0.
   [[nodiscard]] bool is_nothing_throughout() const {
     if (!curve_ || curve_->knots().empty()) return false;
     const std::span<const double> knots = curve_->knots();
     const double last = knots.back() + std::max(1.0, knots.back() - knots.front());
     return range(*curve_, knots.front() - 1, last).high <= 0;
   }
-  /// Nothing for one that may change.
+  /// Its value if it never changes; else empty.
   [[nodiscard]] std::optional<double> constant() const noexcept {
     return curve_ || description_ ? std::nullopt : std::optional(constant_);
   }
@@ -69,12 +69,12 @@ class Number {
   std::size_t parameter_ = 0;
 };
 
-/// What lies below 0 is 0, at rest; at 0 it is what it was just before, or is just after.
+/// Numbers below 0 become 0, at rest; exactly at 0 the sign just before or just after decides.
 [[nodiscard]] inline Sample<double> as_weight(const Sample<double>& number, Side side) noexcept {
   return blending::heading(number, side) < 0 ? Sample<double>{0, 0, 0} : number;
 }
 
-/// What lies beyond 0 or 1 is the nearer end, in the same way.
+/// Numbers outside 0 to 1 are clamped, in the same way.
 [[nodiscard]] inline Sample<double> as_share(const Sample<double>& number, Side side) noexcept {
   const Sample<double> left{1 - number.value, -number.rate, -number.acceleration};
   return blending::heading(left, side) < 0 ? Sample<double>{1, 0, 0} : as_weight(number, side);
@@ -84,7 +84,7 @@ class Number {
   return {a.value * b.value, a.rate * b.value + a.value * b.rate,
           a.acceleration * b.value + 2 * a.rate * b.rate + a.value * b.acceleration};
 }
-/// What is left of 1.
+/// 1 minus the weight.
 [[nodiscard]] inline Sample<double> rest_of(const Sample<double>& weight) noexcept {
   return {1 - weight.value, -weight.rate, -weight.acceleration};
 }

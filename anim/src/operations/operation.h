@@ -1,6 +1,6 @@
 #pragma once
 
-// One operation of a graph: from poses to a pose.
+// One operation of a graph: makes a pose from poses.
 
 #include <tweenfall/anim/graph.h>
 #include <tweenfall/anim/graph_player.h>
@@ -20,34 +20,34 @@
 
 namespace tweenfall::graphs {
 
-/// When a pose is asked for.
+/// The moment of a pose.
 struct Moment {
   double time;
   Side side;
   double start;  // when the state around it was entered, or the graph began
 };
 
-/// Poses to work in, and the one that lies below the graph.
+/// Scratch poses, and the pose below the graph.
 struct Scratch {
   std::span<const Motion> below;
   Motion* free;
-  const PoseBelow* source;  // gives what lies below at any time
+  const PoseBelow* source;  // the pose below at any time
 
   [[nodiscard]] std::span<Motion> pose() const noexcept { return {free, below.size()}; }
   [[nodiscard]] Scratch rest() const noexcept { return {below, free + below.size(), source}; }
 };
 
-/// A stretch of time in which a pose shows: what happens at `from` counts only where the stretch begins with it.
+/// A stretch of time in which a pose shows; what happens at `from` itself counts only if `from` is `start`.
 struct Stretch {
   double from, to, start;
 };
 
 class Operation;
 
-/// A clip that shows, and how much of it, as what a figure's way is made of.
+/// A clip that shows, with its weight, whose root motion moves a figure.
 struct Bearer {
   const Operation* operation;
-  std::size_t clip;  // by number among those of the operation
+  std::size_t clip;  // index among the clips of the operation
   double start;      // of the state around it
   Sample<double> weight;
 
@@ -55,19 +55,19 @@ struct Bearer {
     return operation == other.operation && clip == other.clip && start == other.start;
   }
 };
-/// Those that show at a time; what is left of 1 stands still.
+/// The clips that show at a time; the weight missing to 1 stands still.
 struct Bearers {
   static constexpr std::size_t most = 64;
   std::array<Bearer, most> list;
   std::size_t count = 0;
-  bool flow = false;  // their weights may change without anything that happens
+  bool flow = false;  // their weights may change without an input
 
   [[nodiscard]] const Bearer* find(const Bearer& wanted) const noexcept {
     for (std::size_t i = 0; i < count; ++i)
       if (list[i].is(wanted)) return &list[i];
     return nullptr;
   }
-  /// One that shows in several places is one, with all its weight.
+  /// Adds a clip; one that shows in several places is listed once, with all its weight.
   void add(const Bearer& bearer) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
       if (!list[i].is(bearer)) continue;
@@ -90,13 +90,13 @@ class Operation {
   virtual void pose(const Log& log, const Moment& moment, const Scratch& scratch,
                     std::span<Motion> out) const noexcept = 0;
 
-  /// Whether it remembers a pose; then it is written.
+  /// Whether it remembers the pose; if so, writes it.
   [[nodiscard]] virtual bool recall(const Log&, const Moment&, std::span<Motion>) const noexcept { return false; }
 
-  /// The poses that it is made of.
+  /// The poses that it uses.
   [[nodiscard]] virtual std::vector<const Operation*> operands() const { return {}; }
 
-  /// How much of an operand shows, by its number among them.
+  /// The weight of an operand, given by its index among them.
   [[nodiscard]] virtual double share(const Log&, std::size_t, double) const noexcept { return 1; }
 
   /// Appends the events of the clips that show, in any order.
@@ -106,14 +106,14 @@ class Operation {
   [[nodiscard]] virtual std::optional<double> next_event(const Log& log, std::string_view name, double start,
                                                          double after, double until) const;
 
-  /// The first time in (after, until] at which a clip in it, shown or not, makes its pose jump: where its loop begins
-  /// anew, or its tracks jump.
+  /// The first time in (after, until] at which a clip in it, shown or not, makes its pose jump: where its loop
+  /// restarts, or its tracks jump.
   [[nodiscard]] virtual std::optional<double> next_jump(const Log& log, double start, double after, double until) const;
 
   /// When all clips have ended; 0 where there are none.
   [[nodiscard]] virtual double end(const Log& log, double start) const noexcept;
 
-  /// Adds the clips that bear a node, as far as it shows itself. None: it stands still.
+  /// Adds the clips whose root motion moves a node, by their weights. None: it stands still.
   /// @param weight  of the operation
   virtual void bearers(const Log&, const Moment&, std::size_t /*node*/, const Sample<double>& /*weight*/,
                        Bearers& /*out*/) const noexcept {}
@@ -123,7 +123,7 @@ class Operation {
     return {};
   }
 
-  /// Poses that it works in, its operands' included.
+  /// Number of scratch poses that it needs, including its operands.
   [[nodiscard]] std::size_t rooms() const noexcept { return rooms_; }
   void set_rooms(std::size_t rooms) noexcept { rooms_ = rooms; }
 
@@ -134,7 +134,7 @@ class Operation {
 class Binder;
 class Account;
 
-// One file each: the operation, made; and what it says of itself.
+// One file each: makes the operation, and its description.
 [[nodiscard]] std::unique_ptr<Operation> bound(const ClipPose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const RestPose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const BlendPose& pose, Binder& binder);

@@ -60,8 +60,8 @@ bool SpaceWeights::flows() const noexcept {
   return std::ranges::any_of(by_, [](const Number& number) { return number.flows(); });
 }
 
-/// From one stop to the next, and how the shares go until it is reached: as if nothing more were set, so that what is
-/// set later changes nothing before it.
+/// From one stop to the next, with the course of the shares until then as if there were no more settings, so that later
+/// settings change nothing before them.
 class Phase::Step {
  public:
   Step(const Phase& phase, const Log& log, double start, const Stop& from) noexcept
@@ -74,7 +74,7 @@ class Phase::Step {
       const Blinkers blinkers(log, std::min(log.until, from.time));
       phase.weights_.sample(log, end, Side::in, {last.data(), size_});
     }
-    // A cubic runs between the four values that say it: as long as none of them is below 0, no share is.
+    // A cubic lies between its four Bezier values: while none of them is below 0, no share is.
     double bend = 1;
     std::array<std::array<double, 2>, most_blended> bends;
     for (std::size_t i = 0; i < size_; ++i) {
@@ -98,7 +98,7 @@ class Phase::Step {
 
   [[nodiscard]] double at(double time) const noexcept {
     const double passed = time - from_.time;
-    // Seconds as they count: haste makes them more.
+    // Effective seconds: haste makes them more.
     const auto counted = [&](double part) noexcept {
       if (from_.place.haste == 0) return part * passed;
       const double left = 1 - part * passed / length_;
@@ -132,7 +132,7 @@ class Phase::Step {
     return phase;
   }
 
-  /// Where it stops, and the next one begins.
+  /// The stop at its end, where the next step begins.
   [[nodiscard]] Stop stop_at(const Log& log, double time) const noexcept {
     if (!(time < from_.time + length_)) return {time, {at(time), 0}};
     const Sample<double> planned = sample(time);
@@ -155,9 +155,9 @@ class Phase::Step {
   const MarkerSync& sync_;
   Stop from_;
   std::size_t size_;
-  double length_ = 0;  // s; 0: shares stay as they are
+  double length_ = 0;  // s; 0: shares are constant
   bool steady_ = true;
-  std::array<std::array<double, 4>, most_blended> shares_;  // Bernstein's coefficients
+  std::array<std::array<double, 4>, most_blended> shares_;  // Bernstein coefficients
 };
 
 Phase::Phase(MarkerSync sync, SpaceWeights weights, std::size_t number)
@@ -178,7 +178,7 @@ double Phase::next_stop(const Log& log, double start, double after) const noexce
 
 Phase::Stop Phase::last_stop(const Log& log, double start, double time, Side side) const noexcept {
   auto& trail = log.phases[number_].since(start);
-  // Beyond what is seen, what is marked counts only where nothing was set in between.
+  // Beyond the visible inputs, a mark counts only if there was no setting in between.
   const double sure = std::nextafter(weights_.first_unseen(log), -1.0), limit = std::min(time, sure);
   const auto* const mark = trail.last_mark(limit, limit < time || side == Side::out);
   Stop here = mark ? Stop{mark->time, mark->place} : Stop{start, {sync_.phase_at(0, 0), 0}};
@@ -231,14 +231,14 @@ void Phase::each_event(const Log& log, std::size_t clip, const Clip& described, 
     const Step step(*this, log, start, stop);
     const double next = next_stop(log, start, stop.time), end = std::max(begin, std::min(next, to));
     const double low = way(clip, duration, step.at(begin)), high = way(clip, duration, step.at(end));
-    // By their count: far away a turn more is the same.
+    // Iterated by count: for very large turn numbers adding 1 changes nothing.
     const double first = std::floor(low / duration) - 1;
     for (double count = 0; count <= high / duration - first + 1; ++count)
       for (const Meeting& meeting : round) {
         const double turn = first + count;
         const double met = meeting.way + turn * duration;
         if (met > high || met < low || (met == low && !closed)) continue;
-        double before = begin, time = end;  // the way is short of it at the one, and not at the other
+        double before = begin, time = end;  // the way has not reached it at the first, but has at the second
         if (met == low) time = begin;
         for (;;) {
           const double middle = before + (time - before) / 2;

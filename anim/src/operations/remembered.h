@@ -1,16 +1,16 @@
 #pragma once
 
-// An operation that is asked for the same pose again and again, as springs and those that several others name are.
+// Caches the poses of an operation that is used several times, by springs or by several others.
 
 #include "operations/operation.h"
 
 namespace tweenfall::graphs {
 
-/// Shows what the operation shows. Without it, springs over springs would ask for poses as often as there are ways
+/// Shows the pose of the operation. Without this cache, springs over springs would evaluate poses once for every path
 /// through the graph.
 class Remembered : public Operation {
  public:
-  /// @param number  among those of the graph that remember
+  /// @param number index among the remembered operations of the graph
   Remembered(const Operation& operation, std::size_t number) : operation_(operation), number_(number) {
     set_rooms(operation.rooms());
   }

@@ -17,7 +17,7 @@ class Below : public Operation {
 }  // namespace
 
 void tell(const RestPose&, Account& account) {
-  account.words = "what lies below";
+  account.words = "the pose below";
 }
 
 std::unique_ptr<Operation> bound(const RestPose&, Binder&) {

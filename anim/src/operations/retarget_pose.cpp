@@ -37,7 +37,7 @@ class Retargeted : public Changing {
   Retarget map_;
 };
 
-/// The local poses of a figure where it stands like the other one; none where all of it stands as at rest.
+/// The local poses of a figure in its stance; empty where that is the rest pose.
 std::vector<Pose> stance_of(const Figure& figure, const std::map<std::size_t, const RetargetStance*>& told) {
   std::vector<Pose> poses;
   bool differs = false;
@@ -70,7 +70,7 @@ std::unique_ptr<Operation> bound(const RetargetPose& described, Binder& binder) 
   if (from == no_node || to == no_node) return nullptr;
   const Hierarchy& nodes = binder.nodes();
   if (from == to || chains::is_below(nodes, from, to) || chains::is_below(nodes, to, from)) {
-    binder.fault({"retarget", "target"}, "a figure takes over what another does, and \"" + described.target +
+    binder.fault({"retarget", "target"}, "a figure does what another figure does, but \"" + described.target +
                                              "\" and \"" + described.source + "\" share nodes");
     return nullptr;
   }

@@ -42,8 +42,8 @@ class OnTheSpot : public Changing {
 }  // namespace
 
 void tell(const RootMotionPose& pose, Account& account) {
-  const std::string on_the_spot = pose.accumulates ? " goes on and on" : " on the spot";
-  account.words = pose.onto.empty() ? pose.node + on_the_spot : pose.onto + " goes the way of " + pose.node;
+  const std::string on_the_spot = pose.accumulates ? " travels on" : " on the spot";
+  account.words = pose.onto.empty() ? pose.node + on_the_spot : pose.onto + " carries the movement of " + pose.node;
   account.words += share_in_words(pose.weight);
   account.pose(pose.base, "base");
   account.tell(pose.node, pose.parts.horizontal, pose.parts.vertical, pose.parts.turn, pose.parts.up, pose.onto,

@@ -166,7 +166,7 @@ class SyncedSpace : public Operation {
   Phase phase_;
 };
 
-/// The clip that an entry of a synced space means; null where it means something else, which is told.
+/// The clip of an entry of a synced space; if it is something else, null, and that is reported.
 const LoopedClip* synced_clip(const std::string& name, const Place& place, Binder& binder) {
   const Loop around{.mode = LoopMode::repeat};
   for (const GraphPose& pose : binder.description().poses) {

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The next end of a step: 480 times a second from an instant on, and half as often each time that twice 4096 s have
-/// passed, so that nobody waits for whoever looks a million years ahead.
+/// The next end of a step: 480 times per second from an instant on, and half as often whenever the time since then has
+/// doubled from 4096 s on, so that looking a million years ahead is fast.
 double next_stop(double instant, double after) noexcept {
   const double since = after - instant;
   double size = 1.0 / 480;
@@ -26,7 +26,7 @@ Motion standing() noexcept {
   return {};
 }
 
-/// A step, or a sum of parts of steps, as seen half way through its turn, where what turns evenly goes straight.
+/// A step, or a sum of parts of steps, in the axes half way through its turn, in which a steady turn moves straight.
 struct Stride {
   Vec3 turn{0, 0, 0}, way{0, 0, 0};
 
@@ -54,7 +54,7 @@ MovingStride stride_of(const Motion& step) noexcept {
   return stride;
 }
 
-/// In the axes that it has itself.
+/// The velocity in the motion's own axes.
 Stride own_velocity(const Motion& motion) noexcept {
   const Quat back = motion.pose.rotation.conjugate();
   return {back * motion.twist.angular, back * motion.twist.linear};
@@ -83,10 +83,10 @@ struct Cubic {
         third((1 / (h * h)) * (rate + last_rate - (2 / h) * last)) {}
 };
 
-/// What a clip contributes to a step from 0 to h: the integral of its weight over its stride d, by parts
-/// (W(0) + W)/2 d + 1/2 of the integral of (W - W(0)) d' - W' d, where W is the cubic by the weights and their rates at
-/// both ends, and the second integral, which is nothing where the weight does not change, has the cubic for d too. So
-/// its rate is W d' at both ends, and everywhere that of its value.
+/// The contribution of a clip to a step from 0 to h: the integral of its weight over its stride d, by parts (W(0) +
+/// W)/2 d plus 1/2 of the integral of (W - W(0)) d' - W' d, where W is the cubic from the weights and their rates at
+/// both ends. The second integral, which is 0 while the weight is constant, uses a cubic for d too. So the rate is W d'
+/// at both ends, and everywhere the exact derivative.
 MovingStride part_of(const Sample<double>& before, const Sample<double>& after, const Stride& first_rate,
                      const MovingStride& last, const MovingStride& now, double x, double h) noexcept {
   const Cubic<double> weight(before.rate, after.value - before.value, after.rate, h);
@@ -101,7 +101,7 @@ MovingStride part_of(const Sample<double>& before, const Sample<double>& after, 
           mean * now.rate + mean_rate * now.at + (0.5 * x2) * (second + (2 * x) * third + x2 * fourth)};
 }
 
-/// What must be added to the rate of a stride so that it goes, in its own axes, at the velocity of `own`.
+/// The correction to the rate of a stride so that its velocity, in its own axes, is `own`.
 Stride missing(const MovingStride& stride, const Stride& own) noexcept {
   const Vec3& turn = stride.at.turn;
   const Quat half = exp_map(Vec3(0.5 * turn)), whole = exp_map(turn);
@@ -161,7 +161,7 @@ std::vector<Travel::Known>::const_iterator Travel::known_of(const Bearer& bearer
 
 ClipClock Travel::clock_of(const Log& log, const Bearer& bearer, double time, Side side) const noexcept {
   ClipClock clock = bearer.operation->clock_of(log, bearer.clip, {time, side, bearer.start});
-  clock.climbs = false;  // the travel does
+  clock.climbs = false;  // the travel adds the loops
   return clock;
 }
 
@@ -182,7 +182,7 @@ Motion Travel::step(const Log& log, const Bearers& first, const Step& step, doub
     if (first.count == 0 || known == known_.end()) return standing();
     return step_of(*known, place(*known, first.list[0], step.from, Side::out), place(*known, first.list[0], to, side));
   }
-  // How it goes on to its end if nothing more happens: the way until the next instant follows from what is known here.
+  // Planned to its end as if nothing more happened: the path until the next instant depends only on what is known here.
   const double h = step.end - step.from, x = to - step.from;
   const auto at_end = [&](const auto& ask) {
     const Blinkers blinkers(log, std::min(log.until, step.from));
@@ -190,7 +190,7 @@ Motion Travel::step(const Log& log, const Bearers& first, const Step& step, doub
   };
   const Bearers last = at_end([&] { return bearers_at(log, {step.end, Side::in, step.start}); });
   MovingStride sum, whole;
-  Stride own;  // velocity at the end, in the axes that it has there
+  Stride own;  // velocity at the end, in the axes there
   const auto add = [&](const Bearer& bearer, const Sample<double>& before, const Sample<double>& after) {
     const auto known = known_of(bearer);
     if (known == known_.end()) return;
@@ -212,7 +212,7 @@ Motion Travel::step(const Log& log, const Bearers& first, const Step& step, doub
   }
   for (std::size_t i = 0; i < last.count; ++i)
     if (!first.find(last.list[i])) add(last.list[i], nothing, last.list[i].weight);
-  // Strides that turn differently are added half way through; at the end it is to have the velocities' mean.
+  // Strides that turn differently are added in their half-way axes; the velocity at the end must be the mean of theirs.
   const Stride lag = missing(whole, own);
   if (!(x < h)) return motion_of({whole.at, whole.rate + lag});
   const double u = x / h;
@@ -251,7 +251,7 @@ Pose Travel::place_at_start(const Log& log, double start, std::span<Motion> room
 }
 
 Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) const noexcept {
-  // What is not seen has not happened, and what is marked beyond it counts for nothing.
+  // Hidden inputs have not happened, and marks beyond them do not count.
   const double unseen = log.until < never ? next_instant(log, log.until) : never;
   auto& trail = log.travels[number_].since(moment.start);
   const double sure = std::nextafter(unseen, -1.0);

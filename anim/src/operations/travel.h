@@ -1,6 +1,6 @@
 #pragma once
 
-// The way that a figure goes: the ways of the clips that bear it, from loop to loop and from clip to clip.
+// The path of a figure: the root motion of its clips, accumulated from loop to loop and from clip to clip.
 
 #include <tweenfall/anim/root_motion.h>
 
@@ -8,20 +8,20 @@
 
 namespace tweenfall::graphs {
 
-/// It runs from the start of the state around it, from where the clips have the figure then. The ways of several clips
-/// are mixed step by step, 480 times a second from each instant on: on a step weights are cubics by what they and their
-/// rates are at its ends, so that the way has no sudden changes of velocity that the clips do not have, and its rate is
-/// everywhere that of its value. Where something happens on the way a step is broken off, and what it went faster there
-/// than the clips have it, as where a weight kinks, dies away on the next.
-/// Where one clip bears it alone, its loops are repeated in closed form, so that nothing drifts.
+/// It begins at the start of the state around it, where the clips place the figure then. The movements of several clips
+/// are mixed in steps, 480 per second from each instant on: within a step, weights are cubics from their values and
+/// rates at its ends, so that the velocity jumps only where that of the clips does, and the rate is exactly the
+/// derivative of the value. Something that happens within a step cuts it short; if the figure moved faster there than
+/// the clips say, for example because a weight kinks, the excess decays in the next step. While a single clip moves the
+/// figure, its loops are repeated in closed form, so that nothing drifts.
 class Travel {
  public:
-  /// @param base    what bears the figure; null for nothing
-  /// @param number  among those of the graph
+  /// @param base the pose whose clips move the figure; null for none
+  /// @param number index among the travels of the graph
   Travel(const Hierarchy& nodes, RootMotion root, const Operation* base, std::size_t number);
 
-  /// Where it has come to, with its rates.
-  /// @param room  of one pose, to work in
+  /// The pose reached, with its rates.
+  /// @param room scratch space for one pose
   [[nodiscard]] Motion at(const Log& log, const Moment& moment, std::span<Motion> room) const noexcept;
 
  private:
@@ -36,24 +36,24 @@ class Travel {
   [[nodiscard]] Bearers bearers_at(const Log& log, const Moment& moment) const noexcept;
   [[nodiscard]] Motion carried(const pose::BoundClip& clip, const ClipClock& clock,
                                std::span<Motion> room) const noexcept;
-  /// Where a clip has the figure, and in which of its loops.
+  /// The place of the figure by a clip, and the loop in which it is.
   struct Place {
     Motion motion;
     double cycle;
   };
   /// From one stop to the next.
   struct Step {
-    double start, from, end;  // `end`: unless something happens before
-    bool alone;               // no more than one clip bears it, and that fully, until something happens
+    double start, from, end;  // `end`: if nothing happens before
+    bool alone;               // at most one clip moves it, with full weight, until something happens
     Twist haste;              // see `TravelPlace`
   };
   [[nodiscard]] ClipClock clock_of(const Log& log, const Bearer& bearer, double time, Side side) const noexcept;
   [[nodiscard]] static Motion step_of(const Known& known, const Place& from, const Place& to) noexcept;
-  /// By how much faster a step that is broken off went than the clips have it.
+  /// How much faster than the clips the figure moved at the end of a step that was cut short.
   [[nodiscard]] Twist haste_at(const Log& log, double start, double time, const Motion& step,
                                std::span<Motion> room) const noexcept;
   [[nodiscard]] Pose place_at_start(const Log& log, double start, std::span<Motion> room) const noexcept;
-  /// @param first  those at its beginning
+  /// @param first the bearers at its beginning
   [[nodiscard]] Motion step(const Log& log, const Bearers& first, const Step& step, double to, Side side,
                             std::span<Motion> room) const noexcept;
 

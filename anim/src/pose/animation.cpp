@@ -19,8 +19,8 @@ struct Animation::BoundClips {
 
 struct Animation::BoundPlays {
   struct OfPlay {
-    std::vector<char> masked;  // by entry of the clip: whether the mask keeps the play off; empty for no mask
-    std::vector<Parts> below;  // by entry of the clip: what plays below drive of the node
+    std::vector<char> masked;  // by entry of the clip: whether the mask excludes it; empty for no mask
+    std::vector<Parts> below;  // by entry of the clip: the parts of the node that plays below drive
   };
   std::vector<OfPlay> plays;
   std::vector<char> animated;  // by node: it or an ancestor is moved by some play
@@ -37,7 +37,7 @@ bool is_nothing(const Sample<double>& weight) noexcept {
   return weight.value == 0 && weight.rate == 0;
 }
 
-/// Takes these parts of `from`, so that everything else keeps its bits.
+/// Copies these parts of `from`; everything else keeps its bits.
 void take(Parts parts, const Motion& from, Motion& motion) noexcept {
   if (parts & rotation_part) {
     motion.pose.rotation = from.pose.rotation;
@@ -59,19 +59,19 @@ bool passes(const std::vector<std::string>& mask, std::string_view node) {
   return mask.empty() || std::ranges::any_of(mask, [&](const std::string& pattern) { return matches(pattern, node); });
 }
 
-// A play as it runs, one of its clocks, and what it drives.
+// A running play with one of its clocks, and what it drives.
 struct Running {
   const BoundClip* clip;
   ClipClock clock{};
   Sample<double> weight{1, 0, 0};
   const std::vector<char>* masked = nullptr;  // null: the whole clip
-  const std::vector<Parts>* below = nullptr;  // null: all of it or nothing, as the next says
+  const std::vector<Parts>* below = nullptr;  // null: all or nothing, by the next member
   bool covered = false;
 
   [[nodiscard]] bool drives(std::uint32_t entry) const noexcept {
     return entry != BoundClip::no_entry && (!masked || masked->empty() || !(*masked)[entry]);
   }
-  /// Before a play starts it has no say, save where nothing below it drives the part: there its first frame holds.
+  /// Before a play starts it drives nothing, except parts that nothing below it drives: there its first frame holds.
   [[nodiscard]] Parts parts(std::uint32_t entry, bool started) const noexcept {
     const Parts all = clip->entries()[entry].parts;
     if (started) return all;
@@ -158,7 +158,7 @@ Animation Animation::with_change(const PlayChange& change) const {
                                 (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
   };
   if (start && std::ranges::none_of(players, has_name)) {
-    // By the name of a clip that nothing plays yet, that.
+    // The name may also be that of a clip that no play has yet.
     const std::size_t clip = clip_named(start->clip.empty() ? change.play : start->clip);
     Play play = play_of(*start, clip);
     play.name = change.play;
@@ -173,7 +173,7 @@ Animation Animation::with_change(const PlayChange& change) const {
     player = player.changed((*clips_)[player.play().clip], change.time, change.action);
   }
   other.players_ = std::make_shared<const std::vector<Player>>(std::move(players));
-  // Graphs lie over what the plays have made of the nodes.
+  // The graphs lie over the plays.
   other.graphs_ = nullptr;
   if (start) other.bind_plays();
   if (!graphs_) return other;
@@ -253,7 +253,8 @@ std::optional<RunningPlay> Animation::running(const ClockOverride& clock, std::s
   return running;
 }
 
-// Calls `visit` with each clock of each play that has a say, in order. @param counts  of the play, before its clocks
+// Calls `visit` with each clock of each play that has a weight, in order. @param counts decides by play, before its
+// clocks are computed
 template <class Counts, class Visit>
 void Animation::for_each_running(double stage_time, Side side, const ClockOverride& clock, const Counts& counts,
                                  const Visit& visit) const {
@@ -283,7 +284,7 @@ void Animation::for_each_running(double stage_time, Side side, const ClockOverri
 void Animation::sample(double stage_time, std::span<Motion> local, Side side,
                        const ClockOverride& own_clock) const noexcept {
   const bool by_graphs = graphs_ && own_clock.clip == ClockOverride::every_clip;
-  // Graphs know of no nodes that came after them, and ask what they lie on for their own alone.
+  // Graphs know only the nodes that they were made for, and sample the plays only for these.
   const std::size_t asked = std::min(nodes_->size(), local.size());
   for (std::size_t node = by_graphs ? graphs_->nodes() : 0; node < asked; ++node)
     local[node] = pose::at_rest_on((*nodes_)[node]);

@@ -28,7 +28,7 @@ void set_part(BoundClip::Entry& entry, Parts part, bool present, bool relative) 
 
 }  // namespace
 
-/// The tracks of one node, while they are gathered.
+/// The tracks of one node, while they are collected.
 class BoundClip::Binding {
  public:
   explicit Binding(std::size_t node) { entry.node = node; }
@@ -62,7 +62,7 @@ class BoundClip::Binding {
     }
   }
 
-  /// The angles become one rotation; what a loop gains is reckoned.
+  /// Merges the angles into one rotation, and computes the gain per loop.
   void complete(const Clip& clip, const Pose& rest) {
     if (angles_[0] || angles_[1] || angles_[2]) {
       turned_ = turned_by(angles_, rest.rotation);
@@ -179,7 +179,7 @@ void BoundClip::set_numbers(const Entry& entry, const Pose& rest, const ClipCloc
   }
 }
 
-// In a loop with offset each round goes on from where the one before ended.
+// In a loop with offset each round continues from where the one before ended.
 void BoundClip::climb(std::uint32_t index, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept {
   const Entry& entry = entries_[index];
   Vec3 gain = entry.gain, turn = entry.turn;
@@ -203,8 +203,8 @@ void BoundClip::climb(std::uint32_t index, const Pose& rest, const ClipClock& cl
   }
 }
 
-// From what the curves say to the motion: a loop with offset goes on from where it was, and relative tracks compose
-// with the rest pose.
+// Completes the motion from the curves' values: adds the gain of a loop with offset, and composes relative tracks with
+// the rest pose.
 void BoundClip::finish(std::uint32_t index, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept {
   const Entry& entry = entries_[index];
   if (entry.numbers) set_numbers(entry, rest, clock, motion);

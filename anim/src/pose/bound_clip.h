@@ -14,14 +14,14 @@
 
 namespace tweenfall::pose {
 
-/// Which parts of a node's motion are meant; a set of bits. Positions and scales have one for each number, that of x
-/// the lowest.
+/// Parts of a node's motion, as a set of bits. Positions and scales have one bit for each number, with x the
+/// lowest.
 using Parts = std::uint8_t;
 inline constexpr Parts position_part = 7, rotation_part = 8, scale_part = 112;
 
 class BoundClip {
  public:
-  /// What of one node the clip drives.
+  /// The parts of one node that the clip drives.
   struct Entry {
     std::size_t node;
     Parts parts = 0;     ///< of its motion
@@ -29,27 +29,27 @@ class BoundClip {
     const Curve<Color>* color = nullptr;
     std::array<const Curve<double>*, 4> tints{};  ///< single numbers of the color
     const WeightCurves* weights = nullptr;
-    std::uint32_t first_number = 0, numbers = 0;  ///< those of `numbers_` that are its own
-    Vec3 gain{0, 0, 0};                           ///< what the position has gained after one play of a loop with offset
-    Vec3 turn{0, 0, 0};                           ///< the same of the rotation, as a rotation vector
+    std::uint32_t first_number = 0, numbers = 0;  ///< its part of `numbers_`
+    Vec3 gain{0, 0, 0};                           ///< gain of the position after one round of a loop with offset
+    Vec3 turn{0, 0, 0};                           ///< the same for the rotation, as a rotation vector
 
     [[nodiscard]] bool has_color() const noexcept { return color || tints[0] || tints[1] || tints[2] || tints[3]; }
   };
   static constexpr std::uint32_t no_entry = static_cast<std::uint32_t>(-1);
 
   /// @param clip      must outlive this
-  /// @param problems  written: a line for each track that fits no node or carries another kind of value
+  /// @param problems  written: one line for each track without a node or with values of the wrong type
   BoundClip(const Clip& clip, const Hierarchy& nodes, std::string& problems);
 
   [[nodiscard]] const Clip& clip() const noexcept { return *clip_; }
-  [[nodiscard]] bool lands() const noexcept { return lands_; }  ///< as `lands_on_last_key` says
+  [[nodiscard]] bool lands() const noexcept { return lands_; }  ///< as from `lands_on_last_key`
   [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
-  /// Index of a node's entry; `no_entry` where the clip leaves the node alone.
+  /// Index of a node's entry; `no_entry` where the clip does not drive the node.
   [[nodiscard]] std::uint32_t entry_of(std::size_t node) const noexcept {
     return node < entry_of_.size() ? entry_of_[node] : no_entry;
   }
 
-  /// Writes what the clip drives into the motions of all nodes.
+  /// Writes the driven parts into the motions of all nodes.
   void sample(const Hierarchy& nodes, const ClipClock& clock, std::span<Motion> local) const noexcept;
 
   /// The same for one entry's node.

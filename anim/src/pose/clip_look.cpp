@@ -11,7 +11,7 @@ Sample<T> per_stage_second(Sample<T> sample, double clock_rate) noexcept {
   return sample;
 }
 
-// The plain numbers of a value that is mixed by its parts.
+// The numbers of a value that is mixed component by component.
 double& numbers(double& value) noexcept {
   return value;
 }
@@ -36,7 +36,7 @@ void fade(Sample<T>& under, Sample<T> over, const Sample<double>& weight) noexce
     numbers(under.value) += weight.value * difference;
 }
 
-/// What a clip has for a node's color; single numbers lie over what is below, or over white.
+/// A node's color by a clip; tracks of single components lie over the color below, or over white.
 Sample<Color> color_over(const BoundClip::Entry& entry, const ClipClock& clock, const Node& node,
                          const std::optional<Sample<Color>>& look) {
   if (entry.color) return per_stage_second(entry.color->sample(clock.time, clock.side), clock.rate);

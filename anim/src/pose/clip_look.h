@@ -8,7 +8,7 @@
 
 namespace tweenfall::pose {
 
-/// Lays what a clip has for a node over what it looks like below.
+/// Layers a clip's color and weights of a node over the look below.
 void lay_look_over(const BoundClip::Entry& entry, const ClipClock& clock, const Sample<double>& weight,
                    const Node& node, NodeLook& look);
 

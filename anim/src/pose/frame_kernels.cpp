@@ -36,14 +36,14 @@ TWEENFALL_POSE_INLINED MovingFrame read(const WorldMotion& world) noexcept {
   write(frame, world.linear, world.linear_rate, world.motion.pose.position, world.motion.twist.linear);
 }
 
-/// Near a length of 1, as products of rotations are, by a step of Newton's that leaves less than a rounding.
+/// Normalizes; near a length of 1, as for products of rotations, by one Newton step, which is exact to rounding.
 [[gnu::always_inline]] inline Quat near_unit(const Quat& q) noexcept {
   const double excess = q.squaredNorm() - 1;
   if (!(std::abs(excess) < 1e-9)) return q.normalized();
   return Quat(q.coeffs() * (1 - 0.5 * excess));
 }
 
-// What a motion has beside its frame.
+// The rotation and scale that a motion has besides its frame.
 [[gnu::always_inline]] inline void turn(const WorldFrame&, const Motion&, WorldFrame&) noexcept {}
 [[gnu::always_inline]] inline void turn(const WorldMotion& parent, const Motion& local, WorldMotion& world) noexcept {
   const Motion& above = parent.motion;
@@ -66,7 +66,7 @@ template <class World>
   MovingFrame frame = read(outside);
   for (std::size_t i = 0; i < count; ++i) {
     const World& above = parents[i] == no_parent ? outside : world[parents[i]];
-    // Most nodes come right behind their parents: these need not wait until what was written can be read.
+    // Most nodes directly follow their parents, whose frame is then still at hand and need not be read back.
     if (parents[i] + std::size_t{1} != i) frame = read(above);
     frame = child_frame(frame, local[i]);
     write(frame, world[i]);

@@ -6,7 +6,7 @@
 
 namespace tweenfall::pose {
 
-/// What stands for the parent of a root.
+/// The parent number of a root.
 inline constexpr std::uint32_t no_parent = 0xffffffff;
 
 struct FrameKernels {

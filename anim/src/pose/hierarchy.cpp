@@ -17,11 +17,12 @@ WorldMotion child_of(const WorldMotion& parent, const Motion& local) noexcept {
   return world;
 }
 
-/// Nodes are only ever put behind those that are there, and never moved: who sees the first ones sees them for good.
+/// Nodes are only ever appended, and never moved: hierarchies that use the first ones stay valid.
 struct Hierarchy::Room {
   std::vector<Node> nodes;
-  std::vector<std::uint32_t> parents;  ///< of them, close together for the walk from local to world
-  std::atomic<std::size_t> used{0};    ///< who grows first takes the place behind; another then needs a room of its own
+  std::vector<std::uint32_t> parents;  ///< of the nodes, stored compactly for the walk from local to world
+  std::atomic<std::size_t> used{0};    ///< the first hierarchy to grow takes the next place; another then needs a room
+                                       ///< of its own
 
   [[nodiscard]] static std::uint32_t parent_of(const Node& node) {
     return node.parent == no_node ? pose::no_parent : static_cast<std::uint32_t>(node.parent);
@@ -113,7 +114,7 @@ std::size_t Hierarchy::add_again(Node node) {
 std::optional<std::size_t> Hierarchy::find(std::string_view name) const {
   const auto name_of = [&](std::uint32_t node) -> std::string_view { return nodes_[node].name; };
   for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
-    // Of equal names the latest comes last.
+    // Among equal names the latest comes last.
     const auto after = std::ranges::upper_bound(**run, name, {}, name_of);
     if (after != (*run)->begin() && nodes_[*std::prev(after)].name == name) return *std::prev(after);
   }

@@ -16,7 +16,7 @@ bool is_share(double weight) noexcept {
   return weight >= 0 && weight <= 1;
 }
 
-// Sizes that differ are refused; a mask of size 0 reaches everything.
+// Different sizes are refused; a mask of size 0 affects everything.
 template <class Combine>
 JointMask combined(const JointMask& a, const JointMask& b, const Combine& combine) {
   if (a.size() != 0 && b.size() != 0 && a.size() != b.size())
@@ -57,7 +57,7 @@ JointMask::JointMask(std::vector<double> weights) : weights_(std::move(weights))
   for (std::size_t i = 0; i < weights_.size(); ++i)
     if (!pose::is_share(weights_[i]))
       problems += "\n  the weight of node " + std::to_string(i) + " must be 0 to 1; it is " + number_text(weights_[i]);
-  if (!problems.empty()) throw std::invalid_argument("a mask has weights that are none:" + problems);
+  if (!problems.empty()) throw std::invalid_argument("a mask has invalid weights:" + problems);
 }
 
 JointMask both(const JointMask& a, const JointMask& b) {
@@ -69,7 +69,7 @@ JointMask either(const JointMask& a, const JointMask& b) {
 }
 
 JointMask opposite(const JointMask& mask) {
-  if (mask.size() == 0) throw std::invalid_argument("a mask of no nodes reaches all there are, and has no opposite");
+  if (mask.size() == 0) throw std::invalid_argument("a mask of size 0 affects all nodes and has no opposite");
   std::vector<double> weights(mask.size());
   for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = 1 - mask[i];
   return JointMask(std::move(weights));

@@ -1,6 +1,6 @@
 #pragma once
 
-// What is said of joints by names that a hierarchy does not have.
+// Messages about names of joints that a hierarchy does not have.
 
 #include <tweenfall/anim/hierarchy.h>
 #include <tweenfall/curves/nearest_name.h>

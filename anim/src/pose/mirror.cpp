@@ -16,7 +16,7 @@ Vec3 reflected(const Vec3& v, const Vec3& normal) noexcept {
   return v - (2 * normal.dot(v)) * normal;
 }
 
-// Axes of turns: what is reflected turns the other way.
+// Reflects the axis of a turn: the reflected turn goes the other way.
 Vec3 reflected_turn(const Vec3& v, const Vec3& normal) noexcept {
   return (2 * normal.dot(v)) * normal - v;
 }
@@ -26,7 +26,7 @@ Quat reflected(const Quat& q, const Vec3& normal) noexcept {
   return {q.w(), v[0], v[1], v[2]};
 }
 
-// The partner of each joint, and what is wrong with the pairs.
+// The partner of each joint; adds problems of the pairs.
 std::vector<std::size_t> partners_of(const Hierarchy& nodes, std::span<const MirrorPair> pairs, std::string& problems) {
   std::vector<std::size_t> partners(nodes.size(), no_node);
   const auto meet = [&](std::size_t a, std::size_t b) {
@@ -37,7 +37,7 @@ std::vector<std::size_t> partners_of(const Hierarchy& nodes, std::span<const Mir
   };
   for (const MirrorPair& pair : pairs) {
     if (stars_in(pair.left) != stars_in(pair.right)) {
-      problems += "\n  \"" + pair.left + "\" and \"" + pair.right + "\" must have as many *";
+      problems += "\n  \"" + pair.left + "\" and \"" + pair.right + "\" must have the same number of *";
       continue;
     }
     bool any = false;
@@ -63,9 +63,9 @@ std::vector<std::size_t> partners_of(const Hierarchy& nodes, std::span<const Mir
 
 using AxisOrder = std::array<int, 3>;
 
-// Along which of its partner's axes each axis of a joint lies the nearest, no two along one.
+// For each axis of a joint the nearest of its partner's axes, no two the same.
 // @param seen  row by row the axes of the joint in the mirrored axes of its partner
-// @param own_partner  whether that is the joint itself: then two axes may only change places
+// @param own_partner whether the joint is its own partner: then two axes may only be exchanged
 AxisOrder nearest_axes(const Mat3& seen, bool own_partner) noexcept {
   constexpr std::array<AxisOrder, 6> orders{{{0, 1, 2}, {1, 0, 2}, {2, 1, 0}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}}};
   AxisOrder nearest = orders[0];
@@ -136,13 +136,14 @@ Mirror::Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const 
       return node == no_node ? std::string("no joint") : "\"" + nodes[node].name + "\"";
     };
     problems += "\n  " + name(i) + " is below " + name(parent) + " and its partner " + name(partners[i]) + " below " +
-                name(other) + ", which are no partners";
+                name(other) + ", which are not partners";
   }
   if (!problems.empty()) throw std::invalid_argument("a mirror does not fit its joints:" + problems);
 
-  // From rest, in the figure's space, a joint has the turn D = R B^-1 of its rotation R and of that at rest, B. It is
-  // to have the mirror image m(D) of its partner's. With the parents' the same, its local rotation is (Bp^-1 m(Bp'))
-  // m(q') (m(B')^-1 B), q' being its partner's, Bp the parent's rotation at rest, ' the partner's.
+  // In the figure's space, a joint is turned from rest by D = R B^-1, where R is its rotation and B that at rest. It
+  // must get the mirror image m(D') of its partner's turn. With the same for the parents, its local rotation is (Bp^-1
+  // m(Bp')) m(q') (m(B')^-1 B), where q is a local rotation, Bp the parent's rotation at rest, and ' marks those of the
+  // partner.
   const std::vector<Pose> rest = pose::figure_poses(nodes, stance);
   joints_.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// From the points of a parent's space, and how fast they move, to those of its child's: straight on, all numbers of a
-// vector at once, by instructions of whoever this is inlined into. No bit depends on which those are.
+// From the frame of a parent, with its rates, to that of its child: without branches, all numbers of a vector at once,
+// with the instruction set of the function it is inlined into. The bits do not depend on that set.
 
 #include <tweenfall/curves/pose.h>
 
@@ -9,18 +9,18 @@ namespace tweenfall::pose {
 
 #define TWEENFALL_POSE_INLINED [[gnu::always_inline, nodiscard]] inline
 
-// How vectors would be passed to functions that are not inlined does not matter here: all are.
+// How vectors are passed to functions does not matter here: all are inlined.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-/// x, y and z, and one that is nothing.
+/// x, y and z, and an unused number.
 using Lanes = double __attribute__((vector_size(32)));
 
 TWEENFALL_POSE_INLINED Lanes all(double number) noexcept {
   return Lanes{number, number, number, number};
 }
 
-/// As `all`, of a number that is in memory: one instruction, where that would be two or three.
+/// As `all`, for a number in memory: one instruction instead of two or three.
 TWEENFALL_POSE_INLINED Lanes splat(const double& number) noexcept {
   double numbers[4];
   for (double& lane : numbers) lane = number;
@@ -29,7 +29,7 @@ TWEENFALL_POSE_INLINED Lanes splat(const double& number) noexcept {
   return lanes;
 }
 
-/// A vector that changes.
+/// A vector with its rate.
 struct MovingColumn {
   Lanes value, rate;
 
@@ -53,13 +53,13 @@ TWEENFALL_POSE_INLINED MovingColumn operator+(const MovingColumn& a, const Movin
   return {a.value + b.value, a.rate + b.rate};
 }
 
-/// The axes of a space as its matrix has them, stretched and sheared, and its origin.
+/// The axes of a space, the columns of its matrix with scale and shear, and its origin.
 struct MovingFrame {
   MovingColumn axes[3], origin;
 };
 
-/// With the parent's matrix M, and R and S the child's rotation and scale, the child's is M R S; its rate is
-/// (M' + M [w]x) R S + M R S', w being the child's angular velocity.
+/// With the parent's matrix M and the child's rotation R and scale S, the child's matrix is M R S; its rate is (M' + M
+/// [w]x) R S + M R S', where w is the child's angular velocity.
 TWEENFALL_POSE_INLINED MovingFrame child_frame(const MovingFrame& parent, const Motion& local) noexcept {
   const MovingColumn* axes = parent.axes;
 

@@ -12,7 +12,7 @@ std::size_t stars_in(std::string_view pattern) noexcept {
 std::optional<std::string> renamed(std::string_view name, std::string_view from, std::string_view to) {
   if (stars_in(from) != stars_in(to)) return std::nullopt;
   std::string result;
-  // Up to the next star both patterns give their own text; what the star stands for goes on to the text behind it.
+  // Up to the next star each pattern has its own text; the star stands for everything up to the text after it.
   const auto piece = [](std::string_view& pattern) {
     const std::size_t star = pattern.find('*');
     const std::string_view text = pattern.substr(0, star);

@@ -11,7 +11,7 @@
 
 namespace tweenfall::pose {
 
-/// Of each node, from the local poses given; rotations of unit length. Empty: the nodes' own rest poses.
+/// The pose of each node, from given local poses; rotations are of unit length. Empty `local`: the nodes' rest poses.
 [[nodiscard]] inline std::vector<Pose> figure_poses(const Hierarchy& nodes, std::span<const Pose> local = {}) {
   std::vector<Pose> poses(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -23,13 +23,13 @@ namespace tweenfall::pose {
   return poses;
 }
 
-/// The same rotation, or none where it is none but for rounding.
+/// The same rotation, or the identity if it differs from that only by rounding.
 [[nodiscard]] inline Quat tidied(const Quat& q) noexcept {
   if (q.vec().cwiseAbs().maxCoeff() < 1e-12) return {1, 0, 0, 0};
   return q;
 }
 
-/// The same number, or the whole one that it is but for rounding.
+/// The same number, or the nearest integer if it differs from that only by rounding.
 [[nodiscard]] inline double tidied(double number) noexcept {
   const double whole = std::round(number);
   return std::abs(number - whole) < 1e-12 ? whole : number;

@@ -14,7 +14,7 @@ namespace tweenfall {
 namespace pose {
 namespace {
 
-/// Which source joint each target joint has, and whether it moves.
+/// The source joint of each target joint, and whether it moves.
 struct RetargetMap {
   std::vector<std::size_t> source_of, target_of;
   std::vector<char> moves;
@@ -25,7 +25,7 @@ struct RetargetMap {
     if (pairs.empty()) problems += "\n  no joints are mapped";
     for (const RetargetPair& pair : pairs) {
       if (stars_in(pair.source) != stars_in(pair.target))
-        problems += "\n  \"" + pair.source + "\" and \"" + pair.target + "\" must have as many *";
+        problems += "\n  \"" + pair.source + "\" and \"" + pair.target + "\" must have the same number of *";
       else if (stars_in(pair.source) == 0)
         join_named(source, target, pair);
       else
@@ -103,12 +103,12 @@ class Retarget::Maker {
     parents_.assign(target_.size(), no_node);
     for (std::size_t i = 0; i < target_.size(); ++i) place(result, i);
     if (problems.empty()) result.scale_ = scale();
-    if (!problems.empty()) throw std::invalid_argument("poses cannot be taken over to the other skeleton:" + problems);
+    if (!problems.empty()) throw std::invalid_argument("poses cannot be transferred to the other skeleton:" + problems);
     for (std::size_t i = 0; i < target_.size(); ++i) result.joints_[i].way *= result.scale_;
   }
 
  private:
-  // The stance of a mapped joint, and of others their rest pose below it.
+  // Places a joint: a mapped one in its stance, others in their rest pose below it.
   void stand(std::size_t i) {
     const std::size_t parent = target_[i].parent;
     Pose rest = target_[i].rest;
@@ -140,9 +140,9 @@ class Retarget::Maker {
     result.chains_.insert(result.chains_.end(), chain.begin(), chain.end());
     joint.chain_end = result.chains_.size();
 
-    // The turn of a source joint from its stance is D = R B^-1. The target's rotation is to be T D T^-1 Bt, and its
-    // parent's T Dv T^-1 Bp, v being the source's top of the chain: with Q = Rv^-1 R, of the chain, its local rotation
-    // is (Bp^-1 T Bv) Q (B^-1 T^-1 Bt).
+    // The turn of a source joint from its stance is D = R B^-1. The target's rotation must be T D T^-1 Bt, and its
+    // parent's T Dv T^-1 Bp, where v is the top of the source's chain: with Q = Rv^-1 R for the chain, the local
+    // rotation is (Bp^-1 T Bv) Q (B^-1 T^-1 Bt).
     const Pose none;
     const Pose &above = parent == no_node ? none : standing_[parent],
                &source_above = source_top == no_node ? none : source_stance_[source_top];
@@ -167,7 +167,7 @@ class Retarget::Maker {
   double scale() {
     if (settings_.scale > 0 && std::isfinite(settings_.scale)) return settings_.scale;
     if (settings_.scale != 0) {
-      map_.problems += "\n  the scale of ways must be above 0; it is " + number_text(settings_.scale);
+      map_.problems += "\n  the scale of displacements must be above 0; it is " + number_text(settings_.scale);
       return 1;
     }
     const double length = std::sqrt(settings_.up.squaredNorm());
@@ -184,7 +184,7 @@ class Retarget::Maker {
     if (height > 0 && target_height > 0 && std::isfinite(target_height / height)) return target_height / height;
     map_.problems += "\n  the hips \"" + target_[hips].name + "\" stand " + number_text(target_height) +
                      " above the ground, and those of the source " + number_text(height) +
-                     "; where not both are above it a scale must be given";
+                     "; unless both are above it, a scale must be given";
     return 1;
   }
 
@@ -193,8 +193,8 @@ class Retarget::Maker {
   pose::RetargetMap map_;
   Quat turn_{1, 0, 0, 0};
   std::vector<Pose> source_stance_, target_stance_;
-  std::vector<Pose> standing_;        // of the target, as its joints stand while the source is in its stance
-  std::vector<std::size_t> parents_;  // of target joints the next mapped one above
+  std::vector<Pose> standing_;        // poses of the target while the source is in its stance
+  std::vector<std::size_t> parents_;  // for each target joint the next mapped one above
   std::vector<std::size_t> movers_;
 };
 

@@ -11,8 +11,8 @@ namespace tweenfall {
 namespace pose {
 namespace {
 
-// The turn about `up` that is part of a turn, with its angular velocity: its quaternion is (w, u up) of (w, v), but for
-// its length, where u = v up. None where that has no length, as of half a turn about an axis that lies level.
+// Keeps only the part of a turn about `up`, with its angular velocity: of the quaternion (w, v) this is (w, u up),
+// normalized, with u = v . up. The identity where that has no length, as for half a turn about a horizontal axis.
 void keep_yaw(Motion& turn, const Vec3& up) noexcept {
   const Quat& q = turn.pose.rotation;
   const Vec3 v = q.vec(), spin = turn.twist.angular;
@@ -22,7 +22,7 @@ void keep_yaw(Motion& turn, const Vec3& up) noexcept {
     turn.twist.angular = {0, 0, 0};
     return;
   }
-  // The quaternion's rate is half the angular velocity times it.
+  // The rate of a quaternion is half the angular velocity times the quaternion.
   const double w_rate = -0.5 * spin.dot(v), u_rate = 0.5 * (w * spin.dot(up) + spin.cross(v).dot(up));
   const double length = std::sqrt(square);
   const Vec3 axis = (u / length) * up;
@@ -42,7 +42,7 @@ RootMotion::RootMotion(const Hierarchy& nodes, std::string_view node, const Root
     problems += "\n  " + pose::no_joint_named(nodes, std::string(node));
   }
   if (!parts.horizontal && !parts.vertical && parts.turn == RootParts::Turn::none)
-    problems += "\n  there is nothing to take out: no way over the ground, none up and down, and no turn";
+    problems += "\n  there is nothing to take out: no movement over the ground or up and down, and no turn";
   const double largest = parts.up.cwiseAbs().maxCoeff();
   if (!(largest > 0) || !std::isfinite(parts.up.sum()))
     problems += "\n  the direction up must have a length, and be finite";
@@ -57,7 +57,8 @@ Motion RootMotion::above(std::span<const Motion> pose) const noexcept {
   return motion;
 }
 
-// At rest none: the way is that from where the node's turned rest place would be, of which the asked parts are kept.
+// The identity at rest: the translation is measured from the turned rest position of the node, and only the requested
+// parts are kept.
 Motion RootMotion::frame_of(const Motion& node) const noexcept {
   Motion frame;
   if (parts_.turn != RootParts::Turn::none) {

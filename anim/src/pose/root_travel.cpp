@@ -14,7 +14,7 @@ namespace tweenfall {
 namespace pose {
 namespace {
 
-// Itself where it stands still.
+// The motion of a pose at rest.
 Motion still(const Pose& pose) noexcept {
   Motion motion;
   motion.pose = pose;
@@ -73,7 +73,8 @@ RootTravel root_travel(const RootMotion& root, std::shared_ptr<const Hierarchy> 
   return {first, root.carried(pose).pose};
 }
 
-// With r the turn and p the way of a step, the screw has the turn r and the way u, where p = J(-r) u.
+// With r the rotation vector and p the translation of a step, its screw has the rotation vector r and the translation
+// u, where p = J(-r) u.
 Motion blend_steps(std::span<const Motion> steps, std::span<const Sample<double>> weights) noexcept {
   blending::Whole whole;
   std::size_t loaded = 0, last = 0;

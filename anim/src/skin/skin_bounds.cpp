@@ -9,7 +9,7 @@ namespace tweenfall {
 namespace skin {
 namespace {
 
-// All products of a number of one range with a number of another.
+// The range of all products of a number of one range with a number of another.
 void multiply(Vec3& low, Vec3& high, double least, double most) noexcept {
   const Vec3 a = least * low, b = least * high, c = most * low, d = most * high;
   low = a.cwiseMin(b).cwiseMin(c.cwiseMin(d));

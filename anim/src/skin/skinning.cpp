@@ -10,7 +10,7 @@ using chains::Arrow;
 using chains::Dual;
 using chains::Turning;
 
-// A matrix and its rate, and what it leaves out: where the origin goes.
+// A matrix and its rate, and the translation.
 struct Affine {
   Mat3 linear = Mat3::Zero(), linear_rate = Mat3::Zero();
   Arrow origin;
@@ -21,7 +21,7 @@ struct Affine {
   [[nodiscard]] Arrow point(const Arrow& a) const noexcept { return direction(a) + origin; }
 };
 
-// By the cofactors, which the inverse transpose is a multiple of, and which are there for flat matrices too.
+// By the cofactors, which are a multiple of the inverse transpose and exist for singular matrices too.
 Arrow normal_through(const Affine& m, const Arrow& normal) noexcept {
   const Arrow a{m.linear.col(0), m.linear_rate.col(0)}, b{m.linear.col(1), m.linear_rate.col(1)},
       c{m.linear.col(2), m.linear_rate.col(2)};
@@ -44,7 +44,7 @@ Affine linear_blend(std::span<const Influence> influences, std::span<const SkinJ
   return sum;
 }
 
-// The rate of a quaternion that turns.
+// The rate of a quaternion from its angular velocity.
 Quat rate_of(const Quat& q, const Vec3& spin) noexcept {
   const Quat rate = Quat(0, spin.x(), spin.y(), spin.z()) * q;
   return Quat(0.5 * rate.coeffs());
@@ -78,7 +78,7 @@ Affine dual_quaternion_blend(std::span<const Influence> influences, std::span<co
   Affine result;
   const Mat3 matrix = q.toRotationMatrix();
   const Vec3 spin = (2 / square) * turning.vec();
-  // The place is twice the dual part times the conjugate of the real one, over the square of that.
+  // The position is twice the dual part times the conjugate of the real part, divided by the square of its length.
   const Quat back = Quat(real).conjugate(), back_rate = Quat(real_rate).conjugate();
   const Quat place = Quat(dual) * back, place_on = Quat(dual_rate) * back, place_back = Quat(dual) * back_rate;
   result.origin.v = (2 / square) * place.vec();
@@ -92,13 +92,13 @@ Affine dual_quaternion_blend(std::span<const Influence> influences, std::span<co
   return result;
 }
 
-// What the morph targets make of a list of the mesh.
+// Applies the morph targets to a list of the mesh.
 class Molding {
  public:
   Molding(const Mesh& mesh, std::span<const double> weights, std::span<const double> rates) noexcept
       : mesh_(mesh), weights_(weights.empty() ? std::span<const double>(mesh.rest_weights) : weights), rates_(rates) {}
 
-  /// @param offsets_of  called with the number of a target, gives its list or an empty one
+  /// @param offsets_of called with the number of a target, returns its list or an empty one
   template <class OffsetsOf>
   [[nodiscard]] Arrow at(const Vec3& rest, std::size_t vertex, const OffsetsOf& offsets_of) const noexcept {
     Arrow molded{rest, Vec3(0, 0, 0)};
@@ -135,7 +135,7 @@ void write(std::span<Vec3> values, std::span<Vec3> rates, std::size_t vertex, co
   if (!rates.empty()) rates[vertex] = a.d;
 }
 
-// The rotation of a matrix and what it leaves: the first column keeps its direction, the second its plane.
+// Splits a matrix into a rotation and the rest: the first column keeps its direction, the second its plane.
 void split(SkinJoint& joint) noexcept {
   const Mat3 &m = joint.moved.linear, &rate = joint.moved.linear_rate;
   const Arrow a{m.col(0), rate.col(0)}, b{m.col(1), rate.col(1)};

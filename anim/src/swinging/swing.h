@@ -1,6 +1,6 @@
 #pragma once
 
-// What operations with springs have in common: the way from the start of their state to now, from instant to instant.
+// The common part of operations with springs: their course from the start of the state to now, from instant to instant.
 
 #include "graph/swing_course.h"
 #include "operations/changing.h"
@@ -9,17 +9,17 @@
 
 namespace tweenfall::graphs {
 
-/// Springs go by a clock that begins at the last instant, and see the base as it goes on from there if nothing more
-/// happens: what they do until the next instant follows from what happened before it, whatever is to come.
+/// Springs use a clock that begins at the last instant, and see the base as it would continue from there if nothing
+/// more happened: so their movement until the next instant depends only on what happened before it.
 template <class State>
 class Swing : public Changing {
  public:
-  static constexpr std::size_t own_rooms = 5;  // what lies below at another time, two to work in, and both sides
+  static constexpr std::size_t own_rooms = 5;  // the pose below at another time, two for scratch, and both sides
 
   Swing(Changed changed, std::size_t number) : Changing(std::move(changed)), number_(number) {}
 
  protected:
-  /// As the base has it, at 0 s of a clock; of the size that all states have.
+  /// Resets a state to the base, at 0 s of a clock, with the size that all states have.
   virtual void rest(State& state) const noexcept = 0;
   virtual void show(State& state, double time, const PoseAt& pose_at, const Sample<double>& weight,
                     std::span<Motion> scratch, std::span<Motion> pose) const noexcept = 0;
@@ -95,7 +95,7 @@ class Swing : public Changing {
     rest(std::get<State>(mark.state));
   }
 
-  /// All memory that is asked for is asked for the first time.
+  /// Allocates all memory at the first use.
   void prepare(SwingMemory& memory) const noexcept {
     for (SwingCourse& course : memory.courses) {
       for (SwingMark& mark : course.latest)
@@ -105,12 +105,12 @@ class Swing : public Changing {
     memory.prepared = true;
   }
 
-  /// The mark from which it goes on becomes `here`.
+  /// Sets `here` to the mark to continue from.
   void take_up(const Log& log, const SwingCourse& course, double last, double time, SwingMark& here) const noexcept {
-    here.instant = here.time = -1;  // so that it is not found itself
+    here.instant = here.time = -1;  // so that `here` itself is not found
     double instant = last, limit = time;
     while (const SwingMark* found = furthest_mark(course, instant, limit)) {
-      // On an earlier clock a mark counts up to where that ended.
+      // A mark on an earlier clock is valid up to the end of that clock.
       const double end = found->instant == last ? time : next_instant(log, found->instant);
       if (found->time <= end && std::holds_alternative<State>(found->state)) {
         here = *found;

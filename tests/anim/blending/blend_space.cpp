@@ -135,7 +135,7 @@ TEST_CASE("a blend line and a blend plane list all that is wrong with their entr
   CHECK_THROWS_WITH_AS(
       BlendPlane({{0, 0}, {1, 2}, {2, 4}, {3, 6}}),
       "a blend plane cannot be made of its entries:\n  all its entries lie on one line, from (0, 0) to "
-      "(3, 6); a blend line takes such",
+      "(3, 6); use a blend line for these",
       std::invalid_argument);
   CHECK_THROWS_WITH_AS(BlendPlane({{0, 0}, {infinity, 2}, {2, 4}}),
                        "a blend plane cannot be made of its entries:\n  the place of entry 1 must be finite; it is "

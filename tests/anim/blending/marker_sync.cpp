@@ -167,7 +167,7 @@ TEST_CASE("all that keeps clips from being played in phase is listed") {
                        "  the duration of clip 1 must be finite and above 0 s; it is 0\n"
                        "  the marker \"right\" of clip 2 must lie within its 1 s; it is at 1.2\n"
                        "  the markers \"left\" and \"right\" of clip 3 are both at 0 s\n"
-                       "  the markers of clip 4 (\"left\", \"left\", \"right\") do not follow each other as those of "
+                       "  the markers of clip 4 (\"left\", \"left\", \"right\") are not in the same order as those of "
                        "clip 0 (\"left\", \"right\")",
                        std::invalid_argument);
 }

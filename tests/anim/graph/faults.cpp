@@ -35,7 +35,7 @@ TEST_CASE("all faults of a graph are listed, each with its place") {
         "/parameters/speed: two parameters are named \"speed\"\n"
         "/poses/b/blend/1: poses go around in a circle: \"a\" -> \"b\" -> \"a\"\n"
         "/poses/a/layers/0/mask: no joint is named \"uper\"; did you mean \"upper\"?\n"
-        "/poses/c/blend: these weights sum to nothing; give one above 0\n"
+        "/poses/c/blend: these weights sum to zero; give one above 0\n"
         "/poses/d/clip: there is no clip \"wlak\"; did you mean \"walk\"?\n"
         "/poses/e/machine/states/two: there is no pose or clip \"runn\"\n"
         "/poses/e/machine/transitions/0/to: there is no state \"tow\"; did you mean \"two\"?\n"
@@ -82,11 +82,11 @@ TEST_CASE("numbers that are none, or out of their range, are refused") {
   CHECK(faults_of(changing({.seconds = -1})) ==
         "/poses/a/machine/transitions/0/fade: a fade lasts 0 s or more; this one -1 s\n");
   CHECK(faults_of(changing({GraphChange::Kind::quintic, 0})) ==
-        "/poses/a/machine/transitions/0/settle: to settle takes more than 0 s; this 0 s\n");
-  CHECK(
-      faults_of(changing({.seconds = 1, .ease = Ease::smooth()})) ==
-      "/poses/a/machine/transitions/0/ease: \"smooth\" looks at keys, and a fade has none; say \"linear\" or a shape, "
-      "such as \"quad-in-out\"\n");
+        "/poses/a/machine/transitions/0/settle: settling takes more than 0 s; this 0 s\n");
+  CHECK(faults_of(changing({.seconds = 1, .ease = Ease::smooth()})) ==
+        "/poses/a/machine/transitions/0/ease: \"smooth\" depends on keys, and a fade has none; say \"linear\" or a "
+        "shape, "
+        "such as \"quad-in-out\"\n");
 }
 
 TEST_CASE("a graph that comes to too much is refused, and at once") {

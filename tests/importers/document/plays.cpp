@@ -166,14 +166,14 @@ TEST_CASE("faults of inputs are told at their places") {
 TEST_CASE("a seek beyond what is played is told at its place, whatever the play was asked for before") {
   CHECK(input_faults(R"({"at": 1, "seek": {"play": "walk", "to": 4}})").empty());
   CHECK(fault_says(input_faults(R"({"at": 1, "seek": {"play": "walk", "to": 4.5}})"),
-                   "i.json:2:42: error: \"walk\" has no time 4.5 s in what is played of it, 0 s to 4 s"));
+                   "i.json:2:42: error: \"walk\" has no time 4.5 s in the section that is played, 0 s to 4 s"));
   CHECK(fault_says(input_faults(R"({"at": 1, "start": {"play": "walk", "from": 1, "to": 2}},
 {"at": 1.5, "seek": {"play": "walk", "to": 3}})"),
-                   "i.json:3:44: error: \"walk\" has no time 3 s in what is played of it, 1 s to 2 s"));
+                   "i.json:3:44: error: \"walk\" has no time 3 s in the section that is played, 1 s to 2 s"));
   CHECK(fault_says(input_faults(R"({"at": 1, "start": {"play": "walk", "from": 1, "to": 9}})"),
                    "i.json:2:20: error: a play of clip \"walk\": its section reaches to 9 s, and the clip to 4 s"));
   CHECK(fault_says(input_faults(R"({"at": 1, "speed": {"play": "walk", "speed": [[0, 1], [1, 2]], "seconds": 1}})"),
-                   "a speed of keys says by them how it goes there"));
+                   "a speed with several keys takes no time to change: its keys say how it changes"));
 }
 
 namespace {
@@ -234,7 +234,7 @@ TEST_CASE("names in inputs of graphs that mean nothing are told with the nearest
   says(R"({"at": 1, "set": {"graph": "figrue", "parameter": "speed", "value": 1}})",
        "i.json:2:28: error: there is no graph \"figrue\"; did you mean \"figure\"?");
   says(R"({"at": 1, "set": {"parameter": "wind", "value": 1}})",
-       "i.json:2:32: error: the parameter \"wind\" has keys, and is not set");
+       "i.json:2:32: error: the parameter \"wind\" has keys and cannot be set");
   says(R"({"at": 1, "send": {"event": "og"}})",
        "i.json:2:29: error: nothing in the graph \"figure\" waits for \"og\"; did you mean \"go\"?");
   says(R"({"at": 1, "set": {"parameter": "speed", "value": "fast"}})", "a number, true or false");

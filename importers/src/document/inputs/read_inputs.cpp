@@ -214,7 +214,7 @@ class Reader {
       if (parameter.name == set.parameter) {
         if (parameter.curve)
           building_.problems.add(place,
-                                 "the parameter " + json::in_quotes(set.parameter) + " has keys, and is not set");
+                                 "the parameter " + json::in_quotes(set.parameter) + " has keys and cannot be set");
         return;
       }
       names.push_back(parameter.name);
