@@ -1,5 +1,5 @@
 // tweenfall-import-helper FILE: reads a Collada or OBJ file by assimp and writes the model to standard output, so that
-// what a malformed file does to assimp it does to this program alone.
+// a malformed file that breaks assimp breaks only this program.
 
 #include "assimp/helper.h"
 

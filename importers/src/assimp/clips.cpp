@@ -32,7 +32,7 @@ class ClipReader {
     Clip clip;
     clip.name = name;
     place_ = "clip \"" + name + "\"";
-    // Files without a rate of their own count in seconds.
+    // Files without a rate of their own give times in seconds.
     const double ticks = from.mTicksPerSecond > 0 ? from.mTicksPerSecond : 1;
     driven_.clear();
     for (unsigned i = 0; i < from.mNumChannels; ++i) add_channel(*from.mChannels[i], ticks, clip);

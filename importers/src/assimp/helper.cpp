@@ -20,7 +20,7 @@ constexpr std::string_view program_name = "tweenfall-import-helper";
 constexpr unsigned processor_seconds = 30;
 constexpr double seconds = 120;
 
-/// What a file may take: many times its size, since text becomes numbers and numbers become vertices.
+/// Memory allowed for a file: many times its size, since text becomes numbers and numbers become vertices.
 std::size_t memory_for(std::size_t file_bytes) {
   constexpr std::uint64_t base = std::uint64_t{512} << 20, most = std::uint64_t{8} << 30;
   constexpr std::uint64_t addressable = std::numeric_limits<std::size_t>::max();
@@ -28,11 +28,11 @@ std::size_t memory_for(std::size_t file_bytes) {
       std::min({base + 256 * std::min(std::uint64_t{file_bytes}, most), most, addressable}));
 }
 
-/// Where the helper may be, the first that is there: as the environment says, beside the program that runs or where it
-/// is installed with it, and where it was built or installed with this library.
+/// Places to look for the helper, in order: the path in the environment, beside the running program or where it is
+/// installed with that, and where it was built or installed with this library.
 std::vector<std::filesystem::path> places() {
   std::vector<std::filesystem::path> all;
-  // A word of the environment is for people who moved it.
+  // The environment variable is for people who moved it.
   if (const char* own = std::getenv("TWEENFALL_IMPORT_HELPER"); own && *own) return {own};
   const std::filesystem::path beside = this_program().parent_path();
   if (!beside.empty()) {
@@ -82,7 +82,7 @@ Model read_in_helper(const std::string& bytes, const std::filesystem::path& file
   if (heard.said.starts_with('+')) model = model_of(std::string_view(heard.said).substr(1));
   if (!model) {
     const std::string what = outcome(heard);
-    // An error of the file's own tells its place already.
+    // An error in the file itself states its place already.
     throw ModelError(what.find(": error: ") != std::string::npos ? what : file.string() + ": error: " + what);
   }
   for (const std::string& repair : model->repairs) problems.repair("", repair);

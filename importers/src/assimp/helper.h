@@ -1,7 +1,7 @@
 #pragma once
 
-// assimp in a process of its own. Its assertions are compiled in, a malformed file can end the process, exhaust its
-// stack or its memory; so a small program, tweenfall-import-helper, runs it and hands back what it read.
+// assimp in a process of its own. Its assertions are compiled in, and a malformed file can end the process, or exhaust
+// its stack or its memory; so a small program, tweenfall-import-helper, runs it and returns the model read.
 
 #include "model/model_problems.h"
 
@@ -11,15 +11,15 @@
 
 namespace tweenfall::assimp {
 
-/// The model that the helper reads. Where processes cannot be started at all (no POSIX), assimp runs in this one, and a
+/// The model read by the helper. Where processes cannot be started at all (no POSIX), assimp runs in this one, and a
 /// repair says so.
-/// @throws ModelError when assimp refuses the file, breaks down over it, takes more time or memory than its size
-///         warrants, or the helper is not found.
+/// @throws ModelError when assimp refuses the file, crashes on it, takes more time or memory than its size warrants, or
+///         the helper is not found.
 [[nodiscard]] Model read_in_helper(const std::string& bytes, const std::filesystem::path& file,
                                    models::ModelProblems& problems);
 
-/// What the helper does: imports `file` within bounds of memory and processor time, and writes the model, or the error,
-/// to standard output. @returns the exit code
+/// The main function of the helper: imports `file` within bounds of memory and processor time, and writes the model, or
+/// the error, to standard output. @returns the exit code
 int help(int count, char** words);
 
 }  // namespace tweenfall::assimp

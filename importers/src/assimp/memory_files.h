@@ -13,8 +13,10 @@ class IOSystem;
 
 namespace tweenfall::assimp {
 
-/// @param bytes  the content of `file`; must outlive what is returned
-/// @param missing  gets the names of files that assimp asks for and does not get, in that order; must outlive it, too
+/// @param bytes the content of `file`; must outlive the result
+/// @param missing  receives the names of files that assimp requests and does not get, in order; must outlive the
+/// result,
+///                 too
 [[nodiscard]] std::unique_ptr<Assimp::IOSystem> memory_files(const std::string& bytes,
                                                              const std::filesystem::path& file,
                                                              std::vector<std::string>& missing);

@@ -24,7 +24,7 @@ bool finite(const auto& all) {
   return true;
 }
 
-/// How far each vertex moves; assimp stores where it goes.
+/// How far each vertex moves; assimp stores where it moves to.
 std::vector<Vec3> offsets(const aiVector3D* to, const std::vector<Vec3>& from) {
   std::vector<Vec3> all;
   for (std::size_t i = 0; to && i < from.size(); ++i) all.push_back(vector_of(to[i]) - from[i]);

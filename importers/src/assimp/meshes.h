@@ -14,7 +14,7 @@ struct aiScene;
 
 namespace tweenfall::assimp {
 
-/// The scene's meshes in its own order, each with the skin its bones make; no_node for none.
+/// The scene's meshes in its own order, each with the skin made from its bones; no_node for none.
 struct SceneMeshes {
   std::vector<Mesh> meshes;
   std::vector<std::size_t> skin_of;

@@ -57,7 +57,7 @@ class Writer {
   std::string bytes;
 };
 
-/// Thrown within this file alone.
+/// Thrown only within this file.
 struct Broken {};
 
 class Reader {

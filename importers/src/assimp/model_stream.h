@@ -1,7 +1,7 @@
 #pragma once
 
-// A model as bytes, on its way from the helper to whoever asked for it. Curves are joined by straight lines and
-// shortest arcs, as all that assimp reads.
+// A model as bytes, for the transfer from the helper to its caller. Keys are joined by straight lines and shortest
+// arcs, as in all that assimp reads.
 
 #include <tweenfall/importers/model.h>
 
@@ -13,7 +13,7 @@ namespace tweenfall::assimp {
 
 [[nodiscard]] std::string bytes_of(const Model& model);
 
-/// Nothing where the bytes break off or contradict themselves: what sent them may have been taken over by the file.
+/// Empty where the bytes break off or contradict themselves: the sender may have been taken over by a hostile file.
 [[nodiscard]] std::optional<Model> model_of(std::string_view bytes);
 
 }  // namespace tweenfall::assimp

@@ -39,7 +39,7 @@ namespace {
   throw std::runtime_error(std::string(what) + ": " + std::strerror(error));
 }
 
-/// A descriptor, closed when it goes.
+/// A file descriptor, closed by the destructor.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -61,7 +61,8 @@ class Descriptor {
   int number_;
 };
 
-/// Above the standard ones, which may be closed in this process, and gone where a program is started.
+/// Moves a descriptor above the standard ones, which may be closed in this process, and closes it when a program is
+/// started.
 int moved_up(int number) {
   const int moved = ::fcntl(number, F_DUPFD_CLOEXEC, 3);
   const int error = errno;
@@ -180,7 +181,7 @@ Heard hear(const std::filesystem::path& program, const std::vector<std::string>&
   pid_t waited = 0;
   do waited = ::waitpid(child, &status, 0);
   while (waited < 0 && errno == EINTR);
-  // Where the host has its children waited for by the system, nothing is known of the end; what was said decides.
+  // Where the host ignores SIGCHLD, the exit status is not known; then the output decides.
   if (waited == child) heard.how_it_ended = how_it_ended(status);
   return heard;
 }

@@ -24,7 +24,7 @@ namespace tweenfall::assimp {
 
 namespace {
 
-/// A node of assimp's with the place of its parent in our list.
+/// A node of assimp with the index of its parent in our list.
 struct Waiting {
   const aiNode* node;
   std::size_t parent;
@@ -76,13 +76,13 @@ const aiScene& import_scene(Assimp::Importer& importer, const std::string& bytes
   return *scene;
 }
 
-/// Collada states counts, for which assimp takes memory before it has seen the numbers.
+/// Collada states counts, for which assimp allocates memory before it has seen the numbers.
 void check_counts(const std::string& bytes, const std::filesystem::path& file) {
   for (std::size_t at = bytes.find("count=\""); at != std::string::npos; at = bytes.find("count=\"", at + 1)) {
     std::uint64_t count = 0;
     const char *begin = bytes.data() + at + 7, *end = bytes.data() + bytes.size();
     const auto read = std::from_chars(begin, end, count);
-    // A number takes a digit at least, and all but the last a blank.
+    // A number takes at least one digit, and all but the last a blank.
     if (read.ec == std::errc() && count <= bytes.size() / 2 + 1) continue;
     if (read.ec == std::errc::invalid_argument) continue;
     const json::TextPlace place = json::place_in(bytes, at);
@@ -116,7 +116,8 @@ Model read(const std::string& given, const std::filesystem::path& file, models::
     problems.repair("", "several nodes have one name; all are called by their ids instead");
   }
 
-  // In place of materials that it does not find assimp looks for those by the model's own name, which nobody asked for.
+  // If it does not find a material file, assimp also looks for one with the model's own name, which the file did not
+  // name.
   std::erase(missing, std::filesystem::path(file).filename().replace_extension("mtl").string());
   std::set<std::filesystem::path> told;
   for (const std::string& name : missing)

@@ -1,6 +1,6 @@
 #pragma once
 
-// Collada and OBJ through assimp, with its known faults mended or stated, in this very process.
+// Collada and OBJ through assimp, with its known faults repaired or reported, in this process.
 
 #include "model/model_problems.h"
 
@@ -10,8 +10,8 @@
 
 namespace tweenfall::assimp {
 
-/// Units, axes and clock are the file's.
-/// @throws ModelError; but what is malformed may also end the process, see helper.h.
+/// Units, axes and clock are those of the file.
+/// @throws ModelError; but a malformed file may also end the process, see helper.h.
 [[nodiscard]] Model read(const std::string& bytes, const std::filesystem::path& file, models::ModelProblems& problems);
 
 }  // namespace tweenfall::assimp

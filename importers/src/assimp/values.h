@@ -1,6 +1,6 @@
 #pragma once
 
-// assimp's value types as ours. Templates, so that assimp's headers stay in the sources that read scenes.
+// Converts assimp's value types to ours. Templates, so that assimp's headers stay in the sources that read scenes.
 
 #include <tweenfall/curves/values.h>
 #include <tweenfall/importers/shown_text.h>

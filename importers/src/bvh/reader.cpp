@@ -26,7 +26,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// Words between white space, with the line each stands on.
+/// Words between white space, with the line of each.
 class Words {
  public:
   explicit Words(std::string_view text) : text_(text) {}
@@ -42,7 +42,7 @@ class Words {
     return text_.substr(from, at_ - from);
   }
 
-  /// What is left of the line, up to an opening brace, without white space around it.
+  /// The rest of the line, up to an opening brace, without white space around it.
   std::string rest_of_line() {
     const std::size_t from = at_;
     while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '{') step();
@@ -79,14 +79,14 @@ struct Channel {
 
 struct Joint {
   std::vector<Channel> channels;
-  std::size_t first = 0;  ///< its first number in a frame
+  std::size_t first = 0;  ///< index of its first number in a frame
 };
 
 class BvhReader {
  public:
   BvhReader(std::string_view text, models::ModelProblems& problems) : words_(text), problems_(problems) {}
 
-  /// Stops at the first fault: what follows a misread word means nothing.
+  /// Stops at the first fault, because nothing after a misread word can be trusted.
   bool read(Model& model) { return read_skeleton(model) && read_motion(model); }
 
  private:

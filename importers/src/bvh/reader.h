@@ -1,6 +1,6 @@
 #pragma once
 
-// Biovision motion capture (BVH): a skeleton with Euler angles a frame.
+// Biovision motion capture (BVH): a skeleton with Euler angles for each frame.
 // Source: M. Meredith and S. Maddock, Motion Capture File Formats Explained, 2001, section 3.2.
 
 #include "model/model_problems.h"

@@ -13,7 +13,7 @@ Inherit inherit_of(std::int64_t type) {
   return type == 0 ? Inherit::factors : type == 2 ? Inherit::none : Inherit::normal;
 }
 
-/// The cameras through which MotionBuilder looks at a scene are no part of it.
+/// MotionBuilder's own view cameras are not part of the scene.
 bool is_producer(const Object& object) {
   return object.name.starts_with("Producer ") || object.name == "Camera Switcher";
 }
@@ -104,12 +104,12 @@ void Nodes::make_nodes() {
   }
 }
 
-// A node that does not take its parent's scale hangs on its parent's frame: there the scale of the parent still
-// stretches where it is, and its own scale is multiplied by what it takes over as factors.
+// A node that does not inherit its parent's scale is attached to its parent's frame: the parent's scale still applies
+// to its position, and its own scale is multiplied by the factors that it inherits.
 std::vector<Nodes::Placed> Nodes::placed(const Stack* stack) const {
   const Channel<Vec3> one{Curve<Vec3>(Vec3(1, 1, 1)), false};
   std::vector<Placed> all;
-  // From where each takes factors: an earlier node, or none.
+  // The node from which each inherits factors: an earlier node, or none.
   std::vector<std::size_t> from(files_.size(), no_node);
   for (std::size_t i = 0; i < files_.size(); ++i) {
     const FileNode& file = files_[i];

@@ -11,20 +11,21 @@
 
 namespace tweenfall::fbx {
 
-/// How a node takes over its parent's scale. Source: Autodesk, FBX SDK, FbxTransform::EInheritType.
+/// How a node inherits its parent's scale. Source: Autodesk, FBX SDK, FbxTransform::EInheritType.
 enum class Inherit {
   factors,  ///< RrSs: the parent's factors times its own, along its own axes
   normal,   ///< RSrs: the whole placement of the parent
-  none,     ///< Rrs: not its parent's own scale
+  none,     ///< Rrs: all but the parent's own scale
 };
 
-/// A model of the file among ours.
+/// A "Model" of the file, and the nodes made from it.
 struct FileNode {
   std::size_t object = 0;
-  std::size_t parent = no_node;  ///< among the file's nodes
+  std::size_t parent = no_node;  ///< index among the file's nodes
   Inherit inherit = Inherit::normal;
-  std::size_t node = no_node;  ///< ours of that name
-  /// Ours that has its place and turn but not its scale, for children that do not take it over; else the same node.
+  std::size_t node = no_node;  ///< our node of that name
+  /// Our node with its position and rotation but without its scale, for children that do not inherit it; else the same
+  /// node.
   std::size_t frame = no_node;
 };
 
@@ -33,23 +34,23 @@ class Nodes {
   /// @throws ModelError
   Nodes(const Objects& objects, models::ModelProblems& problems);
 
-  /// Parents first; axes and units are the file's.
+  /// Parents first; axes and units are those of the file.
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   [[nodiscard]] const std::vector<FileNode>& files() const { return files_; }
-  /// Ours for a model; no_node for none.
+  /// Our node for a "Model"; no_node for none.
   [[nodiscard]] std::size_t of(std::size_t object) const;
 
-  /// Where a model rests in the world.
+  /// World motion of a "Model" at rest.
   [[nodiscard]] WorldMotion at_rest(std::size_t object) const;
 
   /// Tracks of all nodes that the stack moves.
   [[nodiscard]] std::vector<Track> tracks(const Stack& stack) const;
 
  private:
-  /// The placement of each file node, as its own node and its frame have it.
+  /// The placement of each file node, for its own node and for its frame.
   struct Placed {
     Placement placement;
-    Channel<Vec3> passed_on;  ///< scale that children which take factors multiply
+    Channel<Vec3> passed_on;  ///< scale for children that inherit factors
   };
 
   void find_models(models::ModelProblems& problems);

@@ -14,7 +14,7 @@ std::string shown_name(std::string_view given, bool text) {
   return utf8_or_latin1(given);
 }
 
-/// Of a property that is listed twice the last: each line sets it.
+/// The last record of a property that is listed twice, since each line sets it.
 const Record* named_property(const Record* properties, std::string_view name) {
   const Record* found = nullptr;
   if (properties)
@@ -23,7 +23,7 @@ const Record* named_property(const Record* properties, std::string_view name) {
   return found;
 }
 
-/// A property that is listed twice with other values; empty for none.
+/// A property that is listed twice with different values; empty for none.
 std::string_view twice_told(const Record* properties) {
   if (!properties) return {};
   std::unordered_map<std::string_view, const Record*> told;
@@ -34,7 +34,7 @@ std::string_view twice_told(const Record* properties) {
   return {};
 }
 
-/// The clock's ticks in a second: 46186158000, or 141120000 from version 8 on and where the file asks for it.
+/// The clock's ticks per second: 46186158000, or 141120000 from version 8 on and where the file says so.
 /// Source: Autodesk, FBX SDK, FbxTime; the meaning of TCDefinition as found by ufbx.
 double ticks_of(const File& file) {
   bool old = file.version < 8000;
@@ -63,7 +63,7 @@ void Objects::read_objects(const File& file, models::ModelProblems& problems) {
     for (const Record& type : definitions->children)
       if (const Record* first = type.name == "ObjectType" ? type.find("PropertyTemplate") : nullptr)
         templates.emplace(type.text(0), first->find("Properties70"));
-  // What hangs on nothing else hangs on object 0, the scene.
+  // Objects attached to nothing else are attached to object 0, the scene.
   objects_.push_back({0, "Scene", "", "", &file.root, nullptr, nullptr});
   by_id_[0] = 0;
   for (const Record& list : file.root.children) {

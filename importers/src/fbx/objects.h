@@ -1,6 +1,6 @@
 #pragma once
 
-// The objects of an FBX file, their properties, and what is connected with what.
+// The objects of an FBX file, their properties, and their connections.
 
 #include "fbx/records/records.h"
 #include "model/model_problems.h"
@@ -24,9 +24,9 @@ struct Object {
   const Record* defaults = nullptr;    ///< the properties of its kind's template, null for none
 };
 
-/// One object hangs on another, or drives a property of it.
+/// One object is attached to another, or drives a property of it.
 struct Connection {
-  std::size_t from = 0, to = 0;  ///< places in the list of objects
+  std::size_t from = 0, to = 0;  ///< indices in the list of objects
   std::string_view property;     ///< of `to`; empty for the whole object
 };
 
@@ -53,7 +53,7 @@ class Objects {
   [[nodiscard]] std::int64_t whole(const Object& object, std::string_view name, std::int64_t otherwise) const;
 
   [[nodiscard]] const Source& source() const { return source_; }
-  /// Ticks of the file's clock in a second.
+  /// Ticks of the file's clock per second.
   [[nodiscard]] double ticks() const { return ticks_; }
   [[nodiscard]] std::int64_t version() const { return version_; }
 

@@ -9,7 +9,7 @@ EulerOrder order_of(std::int64_t number) {
   constexpr int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}, {1, 0, 2}, {2, 0, 1}, {2, 1, 0}};
   EulerOrder order;
   order.intrinsic = false;
-  // What is beyond ("spherical") turns as XYZ does.
+  // Orders beyond these ("spherical") count as XYZ.
   const auto& axes = orders[number >= 0 && number < 6 ? number : 0];
   for (int i = 0; i < 3; ++i) order.axes[i] = axes[i];
   return order;

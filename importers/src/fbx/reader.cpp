@@ -25,7 +25,7 @@ class SceneReader {
   }
 
  private:
-  /// The shapes of what hangs on a node, all of its meshes being molded alike.
+  /// The morph shapes of a node's meshes, which all have the same.
   struct Molded {
     std::size_t node;
     std::vector<Shape> shapes;
@@ -88,13 +88,13 @@ class SceneReader {
     part.mesh.morphs.push_back(std::move(morph));
   }
 
-  /// Puts the geometry's own transform into its points, since children do not take it over.
+  /// Applies the geometry's own transform to its points, since children do not inherit it.
   static void place(const Affine& own, Mesh& mesh) {
     if (own.linear == Mat3::Identity() && own.translation.isZero(0)) return;
     for (Vec3& point : mesh.positions) point = own.linear * point + own.translation;
     const double side = own.linear.determinant() < 0 ? -1 : 1;
-    // Normals go with the inverse transpose, here its adjugate, which exists for flat scales too; it turns them inward
-    // where the transform mirrors.
+    // Normals are transformed by the inverse transpose, here by the cofactors, which exist for singular scales too;
+    // `side` corrects for mirroring.
     Mat3 normal;
     for (int i = 0; i < 3; ++i)
       normal.col(i) = side * Vec3(own.linear.col((i + 1) % 3)).cross(Vec3(own.linear.col((i + 2) % 3)));

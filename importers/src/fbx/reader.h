@@ -1,8 +1,8 @@
 #pragma once
 
 // FBX 7.0 and later, text and binary, from the file itself: nodes, clips with their keys and layers, meshes, skins and
-// blend shapes. Units, axes and times are the file's.
-// Source: Autodesk, FBX SDK documentation; where that is silent, what the projects ufbx and Blender found out.
+// blend shapes. Units, axes and times are those of the file. Source: Autodesk, FBX SDK documentation; beyond that, the
+// findings of the projects ufbx and Blender.
 
 #include "model/model_problems.h"
 

@@ -11,17 +11,17 @@ namespace {
 using Ends = std::pair<std::uint32_t, std::uint32_t>;
 using Line = std::vector<std::uint32_t>;
 
-constexpr std::size_t most_nodes = 220;   // of one soft body that are drawn
-constexpr std::size_t longest_line = 24;  // nodes of a line that are drawn
-constexpr double straight_on = 0.5;       // cosine of the turn by which a line still goes on
+constexpr std::size_t most_nodes = 220;   // drawn of one soft body
+constexpr std::size_t longest_line = 24;  // nodes drawn of a line
+constexpr double straight_on = 0.5;       // cosine of the greatest turn at which a line continues
 
 /// As seen from the side, in meters, y downward.
 Vec2 seen_from_side(const Vec3& point, int across) {
   return {point[across], -point.y()};
 }
 
-/// Of a surface its edges but for those that are the longest of each triangle they are in, which are diagonals of
-/// cells, those of its hem first; of what has none all edges.
+/// The edges of a surface, those of its hem first, without diagonals of cells: edges that are the longest in each of
+/// their triangles. Without a surface, all edges.
 std::vector<std::size_t> drawn_edges(const SoftSettings& soft, std::size_t& hem) {
   constexpr double sharp = 0.7;  // cosine of the angle by which a surface turns at an edge that counts as a hem
   struct Side {
@@ -63,7 +63,7 @@ std::vector<std::size_t> drawn_edges(const SoftSettings& soft, std::size_t& hem)
   return of_hem;
 }
 
-/// Edges joined to lines that go on as straight as they can; first those of the first `hem` edges.
+/// Edges joined to lines that continue as straight as possible; first those of the first `hem` edges.
 std::vector<Line> lines_of(const SoftSettings& soft, const std::vector<std::size_t>& edges, std::size_t hem,
                            std::size_t& hem_lines) {
   std::vector<std::vector<std::size_t>> at(soft.positions.size());
@@ -130,7 +130,7 @@ std::vector<Line> shown_lines(const SoftSettings& soft) {
   return shown;
 }
 
-/// Where edges tear each is a line of its own, which shrinks to a point when it does.
+/// For bodies that tear: each edge is a line of its own, which shrinks to a point when it tears.
 Figure tearing_figure(const SoftRecord& record, const SoftSettings& soft, int across) {
   Figure figure;
   std::size_t hem = 0;

@@ -1,12 +1,12 @@
 #pragma once
 
-// Figures of what is beside nodes: soft bodies as lines, and wheels.
+// Figures of things that are not nodes: soft bodies as lines, and wheels.
 
 #include "figures/figures.h"
 
 namespace tweenfall::figures {
 
-/// Not yet in the picture: meters, y downward.
+/// In meters, y downward, not yet scaled to the picture.
 void add_soft_figures(std::vector<Figure>& list, const Recording& recording, const StageDescription& stage, int across);
 void add_wheel_figures(std::vector<Figure>& list, const Recording& recording, const StageDescription& stage,
                        int across);

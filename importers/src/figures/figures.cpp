@@ -20,7 +20,7 @@ bool is_plane(const BodyDescription& body) {
   return std::holds_alternative<Plane>(body.shape.solid);
 }
 
-/// The center of mass, the vertices, and the ends of sharp edges unless those are many, as on what is nearly round.
+/// The center of mass, the vertices, and the ends of sharp edges, unless there are many, as on nearly round hulls.
 std::vector<Vec3> hull_points(const ConvexHull& hull) {
   constexpr double sharp = 0.866;  // cosine of the least angle between the faces of an edge that is drawn
   constexpr std::size_t many = 16;
@@ -36,7 +36,7 @@ std::vector<Vec3> hull_points(const ConvexHull& hull) {
   return points;
 }
 
-/// A middle, and places all around of what is turned about y.
+/// The middle of a solid turned about y, and places all around it.
 std::vector<Vec3> turned_points(const std::vector<ProfilePoint>& profile) {
   constexpr int around = 24;
   std::vector<Vec3> points(1, Vec3(0, 0.5 * (profile.front().height + profile.back().height), 0));
@@ -48,7 +48,7 @@ std::vector<Vec3> turned_points(const std::vector<ProfilePoint>& profile) {
   return points;
 }
 
-/// In place of the vertices, those of them that are farthest in directions all around.
+/// Replaces the vertices by those that are farthest in directions all around.
 std::vector<Vec2> outlined(const std::vector<Vec2>& points, std::size_t vertices) {
   std::vector<Vec2> result = {points.front()};
   for (std::size_t i = 0; i < hull_outline; ++i) {
@@ -105,7 +105,7 @@ std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
   return points;
 }
 
-/// The corners of the box around a mesh as its morph weights mold it.
+/// The corners of the box around a mesh with given morph weights.
 std::vector<Vec3> box_around(const Mesh& mesh, const std::vector<double>& weights) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   Vec3 low = Vec3::Constant(infinite), high = Vec3::Constant(-infinite);
@@ -146,7 +146,7 @@ void place_mesh(Figure& figure, const NodeRecord& node, const Mesh& mesh, int ac
   }
 }
 
-/// The least rectangle around a figure at a frame, in its own units; nothing for one without points.
+/// The smallest rectangle around a figure at a frame, in its own units; empty for one without points.
 struct Rectangle {
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
   Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
@@ -175,8 +175,8 @@ std::vector<Rectangle> rectangles(const std::vector<Figure>& list, const Recordi
   return all;
 }
 
-/// Around everything, or, where that is far larger than what holds 96 of 100 rectangles, around these alone: what flies
-/// off does not make the rest a dot.
+/// Around everything or, where that is far larger than a rectangle around 96 of 100 of them, only around those, so that
+/// something that flies off does not shrink the rest to a dot.
 Rectangle around_most(const std::vector<Rectangle>& all) {
   Rectangle whole;
   for (const Rectangle& each : all) {
@@ -224,7 +224,7 @@ std::vector<const NodeDescription*> descriptions(const Recording& recording, con
 
 namespace {
 
-/// The outline of a mesh that a skin bends, for one whose joints make no bones to draw.
+/// The outline of a skinned mesh whose joints make no bones to draw.
 Figure skinned_figure(const Recording& recording, const StageDescription& stage, const MeshInstance& instance,
                       const std::vector<std::size_t>& record_of, int across) {
   const Mesh& mesh = stage.meshes[instance.mesh];
@@ -287,7 +287,7 @@ std::vector<Figure> flat_figures(const Recording& recording, const StageDescript
     drawn[node] = true;
   }
 
-  // A skin is drawn as its bones, those with colliders included; what is left of the nodes, as a line to each parent.
+  // A skin is drawn as its bones, including those with colliders; the other nodes as a line to each parent.
   std::vector<bool> joint(recording.nodes.size(), false);
   for (const Skin& skin : stage.skins)
     for (const std::size_t each : skin.joints)
@@ -332,7 +332,7 @@ std::vector<Figure> flat_figures(const Recording& recording, const StageDescript
   return list;
 }
 
-/// Brings figures from meters into the picture.
+/// Converts figures from meters to the picture.
 void into_picture(std::vector<Figure>& list, const SideView& view) {
   for (Figure& figure : list) {
     figure.radius *= view.scale;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a side view draws of a recording: figures of a few points each, placed in the picture for every frame.
+// The figures in a side view of a recording: a few points each, placed in the picture for every frame.
 
 #include <tweenfall/physics/stage/recording.h>
 
@@ -27,19 +27,19 @@ inline constexpr std::size_t hull_outline = 24;
 
 struct Figure {
   enum class Kind {
-    ball,   ///< points: center, and one of its surface that shows how it turns; radius
+    ball,   ///< points: center, and one on its surface that shows how it turns; radius
     stick,  ///< points: two; drawn as thick as 2 radius with round ends
     box,    ///< points: eight corners
     bones,  ///< points: pairs, a line each
-    lines,  ///< points: one list after the other, each joined to a line
+    lines,  ///< points: several lists, each joined to a line
     hull,   ///< points: center of mass, `hull_outline` around the outline, then pairs, a line each
   };
   Kind kind = Kind::box;
-  std::size_t node = no_node;  ///< whose owner colors it
+  std::size_t node = no_node;  ///< the node whose owner colors it
   double radius = 0;           ///< px
   std::size_t vertices = 0;    ///< of a hull, before its outline is taken
   bool fixed = false;
-  std::string name = {};                  ///< of what is no node, else empty
+  std::string name = {};                  ///< of things that are not nodes, else empty
   std::optional<Color> color = {};        ///< its own
   std::vector<std::size_t> starts{};      ///< of lines: the first point of each
   std::vector<std::vector<Vec2>> points;  ///< [frame][point], px
@@ -51,9 +51,9 @@ struct SideScene {
 };
 
 /// Soft bodies, wheels, bodies that are not planes, meshes without skin as their boxes, and one stick figure for each
-/// skin and for each tree of other nodes without bodies and meshes; in a view that holds all of them throughout, in at
-/// most `width` by `height` px with the upper left corner at (left, top). What flies off, out of all proportion to the
-/// rest, does not count.
+/// skin and for each tree of other nodes without bodies and meshes; in a view that contains all of them at all times,
+/// at most `width` by `height` px with the upper left corner at (left, top). Things that fly off disproportionately far
+/// are ignored.
 [[nodiscard]] SideScene side_scene(const Recording& recording, const StageDescription& stage, double left, double top,
                                    double width, double height);
 

@@ -15,7 +15,7 @@ constexpr std::uint32_t sectors = 32, rings = 16;
 /// Two half balls on a cylinder along y; a ball when it has no length.
 void add_round(Mesh& mesh, double radius, double half_height) {
   for (std::uint32_t ring = 0; ring <= rings + 1; ++ring) {
-    // The equator is there twice, once for each half.
+    // The equator is duplicated, once for each half.
     const std::uint32_t parallel = ring <= rings / 2 ? ring : ring - 1;
     const auto down = elementary::sin_cos(std::numbers::pi * parallel / rings);
     const double lift = ring <= rings / 2 ? half_height : -half_height;
@@ -84,7 +84,7 @@ void add_plane(Mesh& mesh, const Plane& plane) {
   add_rectangle(mesh, plane.normal * plane.offset, u * 10, plane.normal.cross(u) * 10);
 }
 
-/// Each triangle with corners of its own.
+/// Adds a surface with separate corners for each triangle.
 void add_flat(Mesh& mesh, const SurfaceMesh& surface) {
   for (std::size_t i = 0; i + 2 < surface.triangles.size(); i += 3) {
     const Vec3 &a = surface.positions[surface.triangles[i]], &b = surface.positions[surface.triangles[i + 1]],

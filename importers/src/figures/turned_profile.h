@@ -1,6 +1,6 @@
 #pragma once
 
-// Cylinders, cones and tapered capsules as they are drawn: an outline turned about y.
+// Cylinders, cones and tapered capsules for drawing: an outline turned about y.
 
 #include <tweenfall/physics/shape.h>
 
@@ -13,7 +13,7 @@ struct ProfilePoint {
   double normal_radius, normal_height;  // unit, out of the solid
 };
 
-// From the top down; places where the surface has an edge are there twice. Empty for other solids.
+// From the top down; places where the surface has an edge are duplicated. Empty for other solids.
 [[nodiscard]] std::vector<ProfilePoint> turned_profile(const Solid& solid);
 
 }  // namespace tweenfall::figures

@@ -1,6 +1,6 @@
 #pragma once
 
-// Boxes with a name, curves between them, and labels that lie over nothing.
+// Boxes with a name, curves between them, and labels that do not overlap anything.
 
 #include <tweenfall/curves/values.h>
 
@@ -18,7 +18,7 @@ struct Rectangle {
     return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
   }
   [[nodiscard]] Vec2 center() const { return {(left + right) / 2, (top + bottom) / 2}; }
-  /// Where the way from its center toward a point leaves it.
+  /// The point where the line from its center towards a point leaves it.
   [[nodiscard]] Vec2 border_toward(const Vec2& point) const;
 };
 
@@ -35,7 +35,7 @@ void draw_box(SvgWriter& svg, const Rectangle& box, const std::string& name, con
 /// From `from` by way of `control` to `to`, with a head there.
 void draw_arrow(SvgWriter& svg, const Vec2& from, const Vec2& control, const Vec2& to);
 
-/// Texts that stand in each other's way nowhere.
+/// Places texts so that they do not overlap.
 class Labels {
  public:
   explicit Labels(std::vector<Rectangle> taken) : taken_(std::move(taken)) {}

@@ -17,7 +17,7 @@ struct Way {
   std::string when, how;
 };
 
-// From a box to another, bent to the right of the way; the more there are the further.
+// From one box to another, bent to the right, further for each arrow that is there already.
 Way way_between(const Rectangle& a, const Rectangle& b, std::size_t already) {
   const Vec2 way = b.center() - a.center();
   const double length = std::max(way.norm(), 1.0);
@@ -26,7 +26,7 @@ Way way_between(const Rectangle& a, const Rectangle& b, std::size_t already) {
   return {a.border_toward(control), control, b.border_toward(control), {}, {}};
 }
 
-// From a box to itself, outside of the ellipse.
+// From a box to itself, outside the ellipse.
 Way around_itself(const Rectangle& box, const Vec2& outward, std::size_t already) {
   const double far = 92 + 40 * static_cast<double>(already);
   const Vec2 middle = box.center(), control = middle + far * outward;
@@ -34,7 +34,7 @@ Way around_itself(const Rectangle& box, const Vec2& outward, std::size_t already
   return {box.border_toward(control + 60 * across), control, box.border_toward(control - 60 * across), {}, {}};
 }
 
-// From nowhere in particular.
+// For a transition from any state.
 Way from_any(const Rectangle& box, const Vec2& outward, std::size_t already) {
   const Vec2 across(-outward.y(), outward.x());
   const Vec2 from = box.center() + 100 * outward + (70.0 * static_cast<double>(already) + 24) * across;

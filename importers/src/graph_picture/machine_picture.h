@@ -22,7 +22,7 @@ class MachinePicture {
   [[nodiscard]] Rectangle box(std::size_t state, const Vec2& middle) const;
 
   const MachinePose& machine_;
-  bool self_or_any_ = false;  // some arrow is outside of the ellipse
+  bool self_or_any_ = false;  // some arrow is outside the ellipse
   Vec2 reach_;                // half axes of the ellipse, px
 };
 

@@ -39,7 +39,7 @@ PoseTree::PoseTree(const GraphDescription& graph) {
 
 std::size_t PoseTree::thing_of(const GraphOperand& operand) const {
   const auto is = [&](const Thing& thing) { return thing.name == operand.pose && (thing.is_clip || !operand.clip); };
-  // A pose comes before a clip of the same name, unless only clips are meant.
+  // A pose takes precedence over a clip of the same name, unless only clips are meant.
   if (!operand.clip)
     for (std::size_t i = 0; i < things_.size(); ++i)
       if (!things_[i].is_clip && is(things_[i])) return i;
@@ -48,7 +48,7 @@ std::size_t PoseTree::thing_of(const GraphOperand& operand) const {
   return things_.size();
 }
 
-// What it is made of comes first, and it stands in the middle of that.
+// Its operands are placed first, and it is placed at their middle.
 std::size_t PoseTree::place(std::size_t index) {
   things_[index].placed = true;
   double sum = 0;

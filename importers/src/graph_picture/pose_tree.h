@@ -1,6 +1,6 @@
 #pragma once
 
-// What of a graph is made of what: clips on the left, what shows on the right.
+// How the poses of a graph depend on each other: clips on the left, the output on the right.
 
 #include <tweenfall/anim/graph.h>
 
@@ -21,7 +21,7 @@ class PoseTree {
     std::string name, words;
     std::vector<GraphOperand> operands;
     bool is_clip = false;
-    std::size_t level = 0;  // how many lie one in another below it
+    std::size_t level = 0;  // nesting depth below it
     double row = 0;
     bool placed = false;
   };
@@ -31,7 +31,7 @@ class PoseTree {
 
   std::vector<Thing> things_;
   std::size_t output_ = 0;
-  std::vector<double> next_row_;  // by level: the first that is free
+  std::vector<double> next_row_;  // by level: the first free row
   double width_ = 0, height_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 using After = Stop::After;
 
-// How long the UTF-8 character at `at` is, stray, overlong and surrogate sequences refused; 0 when it is none.
+// Length of the UTF-8 character at `at`; 0 when it is invalid, including stray bytes, overlong forms and surrogates.
 std::size_t character_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u; };
   const unsigned lead = byte(0);
@@ -82,7 +82,7 @@ class Explainer {
     return {at_, length, std::move(message)};
   }
 
-  // Something else than `wanted` stands here. What never ends is told where it begins.
+  // Something other than `wanted` is here. Something that never ends is reported at its start.
   [[nodiscard]] Fault missing(const std::string& wanted, const std::string& advice = {}) const {
     if (comments_ && text_.substr(at_, 2) == "/*") return here("this comment has no end; expected \"*/\"");
     if (!stop_.open) return here("expected " + wanted + ", found " + found() + advice);
@@ -108,8 +108,8 @@ class Explainer {
     return here(std::move(message));
   }
 
-  // Where a bracket is missing, one that comes later closes too early: it begins a line that stands further left than
-  // the line of the bracket it closes.
+  // Where a bracket is missing, a later one closes the wrong one: it begins a line with less indentation than the line
+  // of the bracket that it closes.
   struct Misfit {
     std::size_t open, close;
   };

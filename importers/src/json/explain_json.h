@@ -1,6 +1,6 @@
 #pragma once
 
-// What is wrong where a parser stopped, and what would be right.
+// Explains what is wrong where a parser stopped, and what would be right.
 
 #include "json/json_tree.h"
 
@@ -8,9 +8,9 @@
 
 namespace tweenfall::json {
 
-// How far the parser came.
+// The point at which the parser stopped.
 struct Stop {
-  std::size_t at = 0;  // after all that was right
+  std::size_t at = 0;  // after everything valid
   enum class After { nothing, open_object, open_list, name, value_in_object, value_in_list, whole };
   After after = After::nothing;
   std::optional<std::size_t> open{};  // the innermost bracket that is not closed

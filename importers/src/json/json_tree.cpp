@@ -78,7 +78,7 @@ std::size_t Member::name_length() const {
 
 namespace {
 
-// What a node's faults do not change: its parts are there all the same.
+// The stored kind, which does not change when a node is marked faulty: its parts are still there.
 bool is_stored_as(const Node* node, Value::Kind kind) {
   return node && static_cast<Value::Kind>(node->kind) == kind;
 }

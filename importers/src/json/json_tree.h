@@ -1,8 +1,8 @@
 #pragma once
 
-// JSON text as a compact tree that remembers where each value stands: sixteen bytes for each value, and no copy of any
-// text in it. Names and texts are read where they stand; only those with escapes are kept decoded. Children lie side by
-// side, so that a list is reached into at once.
+// JSON text as a compact tree that remembers the place of each value: sixteen bytes for each value, and no copies of
+// texts. Names and texts are read in place; only those with escapes are stored decoded. Children are stored side by
+// side, so that elements of lists are found directly.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,10 +20,10 @@ class Members;
 struct Node;
 struct Content;
 
-// One value of a tree, or none. It is small and copied freely, and lives no longer than its tree.
+// One value of a tree, or none. It is small and cheap to copy, and must not outlive its tree.
 class Value {
  public:
-  // `faulty` is a value that was reported already; whoever meets it goes on as if it were not there.
+  // `faulty` is a value that was reported already; readers treat it as absent.
   enum class Kind { null, boolean, number, text, list, object, faulty };
 
   Value() = default;
@@ -33,7 +33,7 @@ class Value {
   [[nodiscard]] Kind kind() const;
   [[nodiscard]] bool is(Kind kind) const { return node_ && this->kind() == kind; }
 
-  // Nothing of use (false, 0, "", no items, no members) from values of other kinds.
+  // For values of other kinds, an empty result (false, 0, "", no items, no members).
   [[nodiscard]] bool boolean() const;
   [[nodiscard]] double number() const;
   [[nodiscard]] std::string_view text() const;
@@ -42,7 +42,7 @@ class Value {
   [[nodiscard]] Value find(std::string_view name) const;  // none when absent or not an object
 
   [[nodiscard]] std::size_t offset() const;  // of the value's first byte
-  [[nodiscard]] std::size_t length() const;  // bytes; found by reading on to the value's end
+  [[nodiscard]] std::size_t length() const;  // bytes; found by scanning to the value's end
 
  private:
   friend class Tree;
@@ -63,7 +63,7 @@ struct Member {
   [[nodiscard]] std::size_t name_length() const;  // with its quotes
 };
 
-// The parts of a container; `Part` is what one of them is handed out as.
+// The parts of a container; `Part` is the type of its elements.
 template <class Range, class Part>
 class PartIterator {
  public:
@@ -92,7 +92,7 @@ class Items {
 
   Items() = default;
   explicit Items(const Value& list);
-  // A list of one value that stands anywhere.
+  // A list of a single value from anywhere.
   static Items only(const Value& value);
 
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -136,12 +136,12 @@ struct Fault {
 inline constexpr std::size_t deepest_nesting = 200;
 inline constexpr std::size_t largest_json_text = std::size_t{1} << 31;  // bytes
 
-// What a text may hold beyond plain JSON, and how much.
+// What a text may contain beyond plain JSON, and how much.
 struct Rules {
   bool comments = true;  // accepted and dropped
-  // Of a name given twice in one object the last value counts; else it is a fault and the first does.
+  // If a name is given twice in one object, the last value counts; otherwise that is a fault and the first one counts.
   bool names_twice = false;
-  std::size_t largest = largest_json_text;  // bytes, at most as many
+  std::size_t largest = largest_json_text;  // greatest number of bytes
 };
 
 // A whole text and the values in it.
@@ -152,17 +152,17 @@ class Tree {
   Tree(Tree&&) noexcept;
   Tree& operator=(Tree&&) noexcept;
 
-  // Reads on past what can be read past, so that one fault does not hide the others; the root is faulty where it
-  // cannot. Commas too many, texts in single quotes, numbers that are none and members given twice can be.
+  // Continues after faults where possible, so that one fault does not hide the others; where it cannot, the root is
+  // faulty. It can after extra commas, texts in single quotes, invalid numbers and members given twice.
   [[nodiscard]] static Tree parse(std::string text, std::vector<Fault>& faults, const Rules& rules = {});
 
   [[nodiscard]] Value root() const;
   [[nodiscard]] std::string_view text() const;  // as it was given
 
-  // Makes a value of this tree one that was reported.
+  // Marks a value of this tree as reported.
   void mark_faulty(const Value& value);
 
-  // JSON pointer of the value, name or text in which a byte stands; empty where it stands between them.
+  // JSON pointer of the value, name or text that contains a byte; empty where the byte is between them.
   [[nodiscard]] std::string pointer_to(std::size_t offset) const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 using Kind = Value::Kind;
 
-// Walks over a text and tells how far it is; the parser keeps copies of it.
+// Iterates over a text and counts how far it is; the parser makes copies of it.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -39,7 +39,7 @@ class CountingIterator {
   const char** reached_;
 };
 
-// Removes the members whose names stand twice from a row of them; returns how many are left.
+// Removes members with repeated names from a row of members; returns how many are left.
 class NamesOnce {
  public:
   NamesOnce(const Content& content, std::vector<Fault>& faults) : content_(content), faults_(faults) {}
@@ -55,7 +55,7 @@ class NamesOnce {
     std::size_t places = 64;
     while (places < 2 * count) places *= 2;
     table_.assign(places, {0, 0});
-    // A few at a time: their places come from memory side by side.
+    // A few at a time, so that their places are loaded from memory in parallel.
     constexpr std::size_t at_once = 16;
     std::array<std::size_t, at_once> hashes;
     for (std::size_t i = 0; i < count; ++i) {
@@ -74,7 +74,7 @@ class NamesOnce {
     const std::string_view name = content_.name(node);
     for (std::size_t i = 0; i < size_; ++i) {
       const Node& kept = kept_[i];
-      // Without escapes names of other lengths are others.
+      // Without escapes, names of different lengths are different.
       if (kept.name_length != node.name_length && !kept.name_escaped && !node.name_escaped) continue;
       if (content_.name(kept) == name) return kept_ + i;
     }
@@ -94,7 +94,7 @@ class NamesOnce {
     }
   }
 
-  /// @param same  the kept one of the same name; null for none
+  /// @param same the member kept with the same name; null for none
   void keep(const Node& node, Node* same) {
     if (!same) {
       kept_[size_++] = node;
@@ -106,9 +106,9 @@ class NamesOnce {
     }
   }
 
-  // Names that only share a place mostly differ in the tag, so that none of them need be fetched from the text.
+  // Names that share a place by chance mostly differ in the tag, so they need not be fetched from the text.
   struct Place {
-    std::uint32_t tag, number;  // of the kept ones, from 1; 0 is free
+    std::uint32_t tag, number;  // index of the member kept, from 1; 0 is free
   };
 
   Place& place_of(std::size_t hash) { return table_[hash & (table_.size() - 1)]; }
@@ -128,8 +128,8 @@ class NamesOnce {
   std::vector<Place> table_;
 };
 
-// Makes nodes of what the parser tells. Children of open containers wait at the high end of the nodes, the last one
-// lowest, and go to the low end together when theirs is closed.
+// Makes nodes from the parser's events. Children of open containers wait at the high end of the nodes, the last one
+// lowest, and move to the low end together when their container is closed.
 class Builder {
  public:
   using number_integer_t = nlohmann::json::number_integer_t;
@@ -156,7 +156,7 @@ class Builder {
         nlohmann::json::sax_parse(CountingIterator(text_.data(), &reached_), CountingIterator(end, &reached_), this,
                                   nlohmann::json::input_format_t::json, true, content_.rules.comments);
     if (stopped_) return false;
-    // A byte of 0 passes for the text's end.
+    // The parser takes a byte of 0 for the end of the text.
     const bool at_end = skip_space(text_, last_end_, content_.rules.comments) == text_.size();
     if (right && at_end) {
       content_.root = content_.nodes[top_];
@@ -173,7 +173,7 @@ class Builder {
     return add(Kind::boolean, [&](Node& node) { node.boolean = value; });
   }
   bool number_integer(number_integer_t value) {
-    // The parser's whole numbers have no sign of 0.
+    // The parser's integers have no -0.
     return number(value == 0 ? -0.0 : static_cast<double>(value));
   }
   bool number_unsigned(number_unsigned_t value) { return number(static_cast<double>(value)); }
@@ -216,7 +216,7 @@ class Builder {
 
   [[nodiscard]] std::size_t reached() const { return static_cast<std::size_t>(reached_ - text_.data()); }
 
-  // Where the token begins that the parser has just told: behind the last one, and a comma or colon.
+  // The start of the token that the parser has just reported: after the last one, and a comma or colon.
   [[nodiscard]] std::size_t start() const {
     const bool comments = content_.rules.comments;
     const std::size_t at = skip_space(text_, last_end_, comments);
@@ -224,7 +224,7 @@ class Builder {
   }
 
   bool keep_decoded(std::size_t from, std::size_t size, const std::string& decoded) {
-    if (decoded.size() == size) return false;  // every escape is longer than what it means
+    if (decoded.size() == size) return false;  // every escape is longer than its character
     content_.decoded.push_back({static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(content_.letters.size()),
                                 static_cast<std::uint32_t>(decoded.size())});
     content_.letters += decoded;
@@ -294,7 +294,7 @@ class Builder {
     std::size_t count = bottom - top_;
     if (kept + count <= first) {
       std::reverse_copy(first, first + count, kept);
-    } else {  // the ends are so near that they share places
+    } else {  // the two ends are so near that they overlap
       std::reverse(first, first + count);
       std::copy(first, first + count, kept);
     }

@@ -31,7 +31,7 @@ Sort sort_of(char c) {
   return sorts[static_cast<unsigned char>(c)];
 }
 
-// After the closing quote; a text ends on its line.
+// The place after the closing quote; a text ends on its line.
 std::size_t quoted_end(std::string_view text, std::size_t at) {
   for (++at; at < text.size(); ++at) {
     if (text[at] == '"') return at + 1;
@@ -43,7 +43,7 @@ std::size_t quoted_end(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-// Whether a number out of range is so for being small: its first digit that counts stands far behind the point.
+// Whether a number out of range is too small: its first nonzero digit is far after the point.
 bool is_tiny(std::string_view number) {
   if (number.front() == '-') number.remove_prefix(1);
   const std::size_t mark = number.find_first_of("eE");
@@ -78,7 +78,7 @@ class Surveyor {
 
   Survey whole() {
     constexpr std::size_t none = std::string_view::npos;
-    std::size_t comma = none;  // the last one, while nothing but space stands behind it
+    std::size_t comma = none;  // the last one, while only space follows it
     for (std::size_t at = 0; at < text_.size();) {
       const char c = text_[at];
       const Sort sort = sort_of(c);
@@ -127,7 +127,7 @@ class Surveyor {
     if (out_.faults.size() < most_noted) out_.faults.push_back({offset, length, std::move(message)});
   }
 
-  // One byte, and spaces for the rest.
+  // Replaces a stretch by one byte and spaces.
   void mend(std::size_t offset, std::size_t length, char first) {
     if (out_.mended.empty()) out_.mended = text_;
     out_.mended.replace(offset, length, length, ' ');
@@ -171,7 +171,7 @@ class Surveyor {
 
 }  // namespace
 
-/// Of one line, as nlohmann's lexer has it.
+/// What ends a comment of one line in nlohmann's lexer.
 constexpr std::string_view comment_ends("\n\r\0", 3);
 
 std::size_t skip_space(std::string_view text, std::size_t at, bool comments) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where a byte of a text stands, for people.
+// The line and column of a byte in a text, for messages.
 
 #include <cstddef>
 #include <string_view>
@@ -13,7 +13,7 @@ struct TextPlace {
 
 [[nodiscard]] TextPlace place_in(std::string_view text, std::size_t offset);
 
-// How many characters bytes of UTF-8 are.
+// Number of characters in UTF-8 bytes.
 [[nodiscard]] std::size_t characters_in(std::string_view utf8);
 
 }  // namespace tweenfall::json

@@ -60,7 +60,7 @@ Model load_model(const std::filesystem::path& file) {
     for (std::string& repair : model.repairs) repair = terminal_text(repair);
     return model;
   } catch (const ModelError& error) {
-    // Readers quote the file's bytes, which can be anything.
+    // Messages of readers quote the file's bytes, which can be anything.
     throw ModelError(terminal_lines(error.what()));
   }
 }

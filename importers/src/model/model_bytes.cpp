@@ -39,7 +39,7 @@ bool leads_out_of(const std::filesystem::path& folder, const std::filesystem::pa
   std::error_code failed;
   const std::filesystem::path home = std::filesystem::canonical(folder.empty() ? "." : folder, failed);
   const std::filesystem::path real = std::filesystem::weakly_canonical(home / below, failed);
-  if (failed) return false;  // what is not there cannot be read either
+  if (failed) return false;  // a missing file cannot be read either
   const std::filesystem::path way = real.lexically_relative(home);
   return way.empty() || *way.begin() == "..";
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Any number of joints that pull on a vertex, made to sum to 1.
+// Scales the weights of any number of joints of a vertex to sum to 1.
 
 #include "model/model_problems.h"
 
@@ -10,7 +10,7 @@
 
 namespace tweenfall::models {
 
-/// Counts what had to be mended, so that a mesh says it once.
+/// Counts repairs, so that each mesh reports them once.
 struct InfluenceTally {
   std::size_t unbound = 0;   ///< vertices without any weight
   std::size_t negative = 0;  ///< vertices with a weight below 0

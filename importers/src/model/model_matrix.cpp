@@ -8,7 +8,7 @@ namespace tweenfall::models {
 
 namespace {
 
-/// A direction at right angles to the ones there are.
+/// A unit direction at right angles to `a`.
 Vec3 perpendicular(const Vec3& a) {
   const Vec3 axis = std::abs(a[0]) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   const Vec3 across = axis - a.dot(axis) * a;

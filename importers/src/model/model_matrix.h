@@ -1,6 +1,6 @@
 #pragma once
 
-// A placement given as a matrix, taken apart.
+// Decomposes a placement given as a matrix.
 
 #include <tweenfall/curves/pose.h>
 
@@ -18,7 +18,7 @@ struct TakenApart {
 /// a negative x scale.
 [[nodiscard]] TakenApart take_apart(const Mat3& linear, const Vec3& translation) noexcept;
 
-/// Number by number: as a whole, Eigen tells it by a function that it does not inline.
+/// Checked number by number, because Eigen's own function is not inlined.
 [[nodiscard]] inline bool is_finite(const Mat3& matrix) noexcept {
   return std::all_of(matrix.data(), matrix.data() + matrix.size(), [](double number) { return std::isfinite(number); });
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Names that are there once, the second "arm" becomes "arm#2", and are UTF-8, whatever program wrote them.
+// Makes names unique, so that the second "arm" becomes "arm#2", and valid UTF-8, whatever program wrote them.
 
 #include <tweenfall/importers/shown_text.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What is wrong with a model file, gathered so that one reading reports everything.
+// Collects the faults of a model file, so that one reading reports all of them.
 
 #include "json/json_tree.h"
 #include "json/text_place.h"
@@ -23,13 +23,13 @@ class ModelProblems {
   void add(const std::string& place, const std::string& what);
   void add(const json::TextPlace& place, const std::string& what);
 
-  /// A fault that was mended, in a sentence that says how.
+  /// A fault that was repaired, with a sentence that says how.
   void repair(const std::string& place, const std::string& what);
 
   [[nodiscard]] bool any() const { return count_ > 0; }
   [[nodiscard]] std::vector<std::string> repairs() const;
 
-  /// The line and column of a place, where they are known.
+  /// The line and column of a place, if known.
   using Where = std::function<std::optional<json::TextPlace>(const std::string& place)>;
 
   /// @throws ModelError listing the faults, when there are any.

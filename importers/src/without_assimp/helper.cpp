@@ -1,6 +1,6 @@
 #include "assimp/helper.h"
 
-/// In place of assimp where it is left out.
+/// Used instead of assimp where that is left out.
 
 namespace tweenfall::assimp {
 

@@ -1,10 +1,10 @@
 #pragma once
 
-/// The document: JSON that people write, checked once, whole.
+/// The document: JSON written by people, checked once as a whole.
 ///
-/// Reading gives either a `Document` or a `DocumentError` with every problem in it, each with its
-/// line and column, a pointer, what is wrong and what would be right. A document keeps what its author wrote, so
-/// that writing it back gives the same text, and `stage` makes of it what runs.
+/// Reading gives either a `Document` or a `DocumentError` with all problems, each with its line and column, a pointer,
+/// what is wrong and what would be right. A document keeps what its author wrote, so that writing it back gives the
+/// same text; `stage` is what can be run.
 
 #include <tweenfall/importers/model.h>
 #include <tweenfall/physics/expression_system.h>
@@ -19,21 +19,21 @@
 
 namespace tweenfall {
 
-/// A note is about what is right and perhaps not meant; an error is a fault, for which a document is refused.
+/// A note is about something valid that may not be intended; an error is a fault for which a document is refused.
 enum class Severity { error, note };
 
-/// One thing to say about a place of a document.
+/// One message about a place in a document.
 struct Problem {
   Severity severity = Severity::error;
   std::string file;      ///< as given
-  std::size_t line = 0;  ///< from 1; 0 when the whole file is meant
+  std::size_t line = 0;  ///< from 1; 0 for the whole file
   std::size_t column = 0;
   std::string pointer;             ///< JSON pointer, "/clips/drop/..."
   std::string message;             ///< what is wrong, and the nearest valid name where there is one
-  std::string excerpt;             ///< the line of the file, or of a very long one what stands around the place
+  std::string excerpt;             ///< the line of the file; of a very long line the part around the place
   std::size_t excerpt_column = 1;  ///< column of the excerpt's first character
-  std::size_t length = 1;          ///< how many bytes are meant
-  std::size_t count = 1;           ///< more where it says how many others are not listed
+  std::size_t length = 1;          ///< of the place, bytes
+  std::size_t count = 1;           ///< above 1 where it states how many others are not listed
 
   /// "file:line:column: error: message (at pointer)", or "note:", then the line and a caret, as compilers print it.
   /// Always UTF-8.
@@ -42,32 +42,32 @@ struct Problem {
 
 class DocumentError : public std::runtime_error {
  public:
-  /// @param problems  at least one @param notes  what was noted before the reader gave up
+  /// @param problems at least one @param notes notes made before the reader gave up
   explicit DocumentError(std::vector<Problem> problems, std::vector<Problem> notes = {});
-  [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }  ///< errors alone
+  [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }  ///< only errors
   [[nodiscard]] const std::vector<Problem>& notes() const noexcept { return notes_; }
 
  private:
   std::vector<Problem> problems_, notes_;
 };
 
-/// Longer texts are no documents of people, and are refused before they fill memory.
+/// Longer texts are not written by people, and are refused before they fill memory.
 inline constexpr std::size_t largest_document = std::size_t{1} << 28;  // bytes
 
 struct ReadOptions {
   bool allow_outside = false;  ///< imports may leave the document's folder
-  bool try_steps = true;       ///< a copy takes up to 256 steps on trial, for notes of what will not last
+  bool try_steps = true;       ///< a copy of the stage is run for up to 256 steps, to note what would go wrong
 };
 
 class Document {
  public:
-  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  // A move is a copy: that is just as cheap, and the object moved from stays valid.
   Document(const Document&) noexcept = default;
   Document& operator=(const Document&) noexcept = default;
 
   /// @throws DocumentError with all problems.
   [[nodiscard]] static Document read(const std::filesystem::path& file, const ReadOptions& options = {});
-  /// @param name    stands for the file in problems
+  /// @param name used for the file in problems
   /// @param folder  imports are relative to it
   [[nodiscard]] static Document parse(std::string_view text, const std::string& name,
                                       const std::filesystem::path& folder, const ReadOptions& options = {});
@@ -75,22 +75,23 @@ class Document {
   /// Nodes, clips, bodies and rules, imports included.
   [[nodiscard]] const StageDescription& stage() const noexcept;
 
-  /// Systems of first order that it writes down; each is a clip of the stage, too.
+  /// The systems of first-order equations in it; each is also a clip of the stage.
   [[nodiscard]] const std::vector<ExpressionSystem>& systems() const noexcept;
 
-  /// What its author may want to know though the document is valid: names of ours nearly hit, what is too stiff or too
-  /// fast for the step, bodies that start in each other, what a rule's pattern leaves out, what was lost of a model.
+  /// What its author may want to know although the document is valid: near misses of our names, things too stiff or too
+  /// fast for the step, bodies that start inside each other, bodies that a rule's pattern leaves out, losses from a
+  /// model.
   [[nodiscard]] const std::vector<Problem>& notes() const noexcept;
 
-  /// What turned out to be wrong with a node of `stage`, such as a place that no file can hold: the message with the
-  /// node's place, or that of the import that brought it.
+  /// A problem found later with a node of `stage`, such as a position that no file can hold: the message with the
+  /// node's place in the document, or that of the import that it came from.
   [[nodiscard]] Problem problem_of_node(std::size_t node, std::string message) const;
 
-  /// The document as text: two spaces, one key per line, defaults left out. Reading and writing that again gives the
-  /// same text.
+  /// The document as text: two spaces, one key per line, defaults left out. Reading and writing it again gives the same
+  /// text.
   [[nodiscard]] std::string text() const;
 
-  /// A document of a model's nodes and clips.
+  /// A document with a model's nodes and clips.
   [[nodiscard]] static Document from_model(const Model& model);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Graphs of poses as SVG: what is made of what, and each machine with its states and transitions.
+/// Graphs of poses as SVG: how poses depend on each other, and each machine with its states and transitions.
 
 #include <tweenfall/anim/graph.h>
 
@@ -9,8 +9,8 @@
 
 namespace tweenfall {
 
-/// Deterministic text. Of each graph its clips and poses from left to right, lines saying what for; below, each
-/// machine: states as boxes, transitions as arrows with their conditions in words and how the change is made.
+/// Deterministic text. For each graph its clips and poses from left to right, connected by lines that state the role;
+/// below, each machine: states as boxes, transitions as arrows with their conditions and the kind of change in words.
 [[nodiscard]] std::string graph_svg(std::span<const GraphDescription> graphs);
 
 }  // namespace tweenfall

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Timed inputs as a JSON file: what is asked of a stage from outside while it runs, each at its time.
+/// Timed inputs as a JSON file: commands to a stage while it runs, each at its time.
 ///
 ///     {"tweenfall": 1, "inputs": [
 ///       {"at": 0.5, "start": {"play": "wave", "fade_in": 0.2}},
@@ -20,10 +20,10 @@
 
 namespace tweenfall {
 
-/// @param stage  whose plays, graphs and bodies the inputs name
+/// @param stage the stage whose plays, graphs and bodies the inputs name
 /// @throws DocumentError with all problems
 [[nodiscard]] std::vector<TimedInput> read_inputs(const std::filesystem::path& file, const StageDescription& stage);
-/// @param name  stands for the file in problems
+/// @param name used for the file in problems
 [[nodiscard]] std::vector<TimedInput> parse_inputs(std::string_view text, const std::string& name,
                                                    const StageDescription& stage);
 

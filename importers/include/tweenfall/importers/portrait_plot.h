@@ -9,9 +9,9 @@
 
 namespace tweenfall {
 
-/// Deterministic text. Of each system, side by side: where it goes from its start and from its others, over arrows that
-/// say where it would go from anywhere; and the energy along the way, where it has one. Other numbers of the state, and
-/// the time, are for the arrows as at the start.
+/// Deterministic text. For each system, side by side: its paths from its start and from its other starts, over arrows
+/// for the direction at every point; and the energy along the path, if it has one. For the arrows, other numbers of the
+/// state, and the time, are as at the start.
 [[nodiscard]] std::string portrait_svg(std::span<const ExpressionSystem> systems);
 
 }  // namespace tweenfall

@@ -8,13 +8,13 @@ namespace tweenfall::fbx {
 
 namespace {
 
-/// A layer's own curves of a property, to be laid over what is below it.
+/// A layer's own curves of a property, to be laid over the layers below.
 template <class T>
 struct Overlay {
   Curve<T> value;
   Curve<double> weight;
   Layer::Blend blend;
-  bool whole;  ///< by factors or whole rotations
+  bool whole;  ///< multiplies factors or whole rotations
 };
 
 using Axes = std::array<std::size_t, 3>;
@@ -55,7 +55,7 @@ Sample<Vec3> laid_over(const Sample<Vec3>& below, const Sample<Vec3>& value, con
                  : sum(scaled(below, rest_of(weight)), scaled(value, weight));
 }
 
-/// What the layers above the first do, over what is below them.
+/// The layers above the first.
 std::vector<Overlay<Vec3>> overlays(const std::vector<Driver>& drivers, const Stack& stack, bool (*whole)(const Layer&),
                                     const Axes& axes, double factor) {
   std::vector<Overlay<Vec3>> all;
@@ -67,7 +67,7 @@ std::vector<Overlay<Vec3>> overlays(const std::vector<Driver>& drivers, const St
   return all;
 }
 
-/// The lowest layer stands for itself; without it the property's own value is below the others.
+/// The lowest layer as it is; without it the property's own value is below the others.
 Curve<Vec3> lowest(const std::vector<Driver>& drivers, const Vec3& rest, const Axes& axes, double factor) {
   if (drivers.front().layer == 0) return vector_of(drivers.front(), axes, factor);
   return Curve<Vec3>(Vec3(rest[static_cast<Eigen::Index>(axes[0])], rest[static_cast<Eigen::Index>(axes[1])],
@@ -94,7 +94,7 @@ Curve<Vec3> layered(const Curve<Vec3>& base, const std::vector<Overlay<Vec3>>& a
       knots_of(base, above));
 }
 
-/// Angles laid over each other, some of them as whole rotations.
+/// Angles layered over each other, some of them as whole rotations.
 Curve<Quat> layered_rotations(const Curve<Vec3>& base, const std::vector<Overlay<Vec3>>& above,
                               const EulerOrder& order) {
   return composed<Quat>(
@@ -217,7 +217,7 @@ Channel<Quat> rotation_channel(const Objects& objects, std::size_t object, const
       if (each.whole && each.blend != Layer::Blend::replace) return {layered_rotations(base, above, order), true};
     return {euler_curve(layered(base, above), order), true};
   } catch (const std::invalid_argument& error) {
-    // Each curve is one that there can be, and their sum may not be.
+    // Each curve is valid, but their sum may not be.
     objects.source().fail(objects[object].record->at, std::string("an animated rotation: ") + error.what());
   }
 }

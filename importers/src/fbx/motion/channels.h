@@ -10,7 +10,7 @@
 
 namespace tweenfall::fbx {
 
-/// A property of three numbers, or what it is at rest where no stack is given or nothing in it drives the property.
+/// A property of three numbers, or its value at rest where no stack is given or nothing in it drives the property.
 [[nodiscard]] Channel<Vec3> vector_channel(const Objects& objects, std::size_t object, const std::string& property,
                                            const Vec3& otherwise, const Stack* stack);
 
@@ -18,7 +18,7 @@ namespace tweenfall::fbx {
 [[nodiscard]] Channel<double> number_channel(const Objects& objects, std::size_t object, const std::string& property,
                                              double otherwise, const Stack* stack);
 
-/// A property of three angles in degrees as the rotation that they make in turn. @param order  extrinsic
+/// A property of three angles in degrees, as a rotation. @param order extrinsic
 [[nodiscard]] Channel<Quat> rotation_channel(const Objects& objects, std::size_t object, const std::string& property,
                                              const EulerOrder& order, const Stack* stack);
 

@@ -13,7 +13,7 @@ namespace tweenfall::fbx {
 
 namespace {
 
-/// The four numbers of a key as floats, and the bits of the third. From version 7.2 on a text states their bits.
+/// The four numbers of a key as floats, and the bits of the third. From version 7.2 on text files state the bits.
 void set_data(const Record* list, bool bits, std::size_t set, FileKey& key) {
   if (!list) return;
   const Record* inside = list->find("a");
@@ -90,7 +90,7 @@ class CurveReader {
     objects_.source().fail(record_.at, "an animation curve " + what);
   }
 
-  /// Flags and slopes are told once for as many keys in a row as have the same.
+  /// Flags and slopes are stored once for each run of keys that share them.
   void set_attributes(std::vector<FileKey>& keys) const {
     const Integers flags = record_.integers("KeyAttrFlags"), counts = record_.integers("KeyAttrRefCount");
     const Record* data = record_.find("KeyAttrDataFloat");
@@ -114,7 +114,7 @@ class CurveReader {
       fail("tells the kinds of " + std::to_string(at) + " of its " + std::to_string(keys.size()) + " keys");
   }
 
-  /// Of keys at one time the last is kept, and what goes back in time is left out.
+  /// Of keys at the same time the last is kept, and keys that go back in time are left out.
   std::vector<FileKey> in_order(const std::vector<FileKey>& keys) const {
     std::vector<FileKey> kept;
     for (const FileKey& key : keys) {
@@ -156,13 +156,13 @@ Curve<double> joined(const std::vector<FileKey>& keys, double scale, double tick
     else if (!last)
       made.out = tangent(slopes[i].out * scale, slopes[i].out_weight);
     all.push_back(std::move(made));
-    // The next key's value is in force from the clock's next tick on; at its own time a key has its own value.
+    // The next key's value applies from the clock's next tick on; at its own time a key has its own value.
     if (!last && (key.flags & key_constant) && (key.flags & key_constant_next) && keys[i + 1].time > key.time + tick)
       all.push_back({.time = key.time + tick, .value = keys[i + 1].value * scale, .ease = hold});
   }
   const Curve<double> curve = keyed_curve<double>(std::span<const Key<double>>(all));
   if (keys.size() < 2 || !(keys[keys.size() - 2].flags & key_constant)) return curve;
-  // The last key is in force from its own time on, where the curve ends.
+  // The last key's value applies at its own time, where the curve ends.
   std::vector<Span<double>> spans = curve.spans();
   spans.back().end = keys.back().value * scale;
   return Curve<double>(std::span<const Span<double>>(spans));

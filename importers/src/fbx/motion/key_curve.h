@@ -10,7 +10,7 @@
 
 namespace tweenfall::fbx {
 
-/// The curve, its values times `scale`; nothing for one without keys.
+/// The curve with its values times `scale`; empty if it has no keys.
 /// @throws ModelError with the place of lists that do not fit together or hold no finite numbers.
 [[nodiscard]] std::optional<Curve<double>> key_curve(const Object& curve, const Objects& objects, double scale,
                                                      models::ModelProblems& problems);

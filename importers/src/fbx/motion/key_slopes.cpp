@@ -7,13 +7,13 @@ namespace tweenfall::fbx {
 
 namespace {
 
-/// A weight as its four decimals say; those of a plain third are the third itself.
+/// A weight from its four decimals; 3333 means exactly a third.
 double weight_of(std::uint32_t packed) {
   if (packed == 3333) return 1.0 / 3;
   return std::clamp(static_cast<double>(packed) * 1e-4, 1e-4, 1.0);
 }
 
-/// A key between two others, as the automatic rule looks at it.
+/// A key between two others, for the automatic rule.
 struct Between {
   const FileKey &before, &key, &after;
 
@@ -28,7 +28,7 @@ double beyond(double bias) {
   return excess > 0 ? excess * excess * 40 : 0;
 }
 
-/// The slope is cut to what keeps the curve within the neighbors' values.
+/// Limits the slope so that the curve stays within the neighbors' values.
 double within(double slope, const Between& at, const KeySlopes& weights) {
   const double sign = slope >= 0 ? 1 : -1;
   const auto most = [&](double change, double range) { return range > 0 ? std::max(sign * change / range, 0.0) : 0.0; };
@@ -37,7 +37,7 @@ double within(double slope, const Between& at, const KeySlopes& weights) {
                           most(at.after.value - at.key.value, weights.out_weight * (at.after.time - at.key.time))});
 }
 
-/// Clamping is for keys at the height of a neighbor; files state values in floats.
+/// Whether two values are equal, for clamping; files state values as floats.
 bool level(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max({1.0, std::abs(a), std::abs(b)});
 }

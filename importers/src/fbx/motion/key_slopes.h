@@ -1,13 +1,13 @@
 #pragma once
 
-// The slopes and handle lengths of an FBX curve's keys, those that the file states and those it leaves to rules.
+// The slopes and handle lengths of an FBX curve's keys, as stated in the file or chosen by rules.
 
 #include <cstdint>
 #include <vector>
 
 namespace tweenfall::fbx {
 
-/// What an FBX curve says of a key. Source: Autodesk, FBX SDK, FbxAnimCurveDef; the numbers as found by ufbx.
+/// The flags of a key of an FBX curve. Source: Autodesk, FBX SDK, FbxAnimCurveDef; the numbers as found by ufbx.
 enum KeyFlags : std::uint32_t {
   key_constant = 0x2,
   key_linear = 0x4,

@@ -15,7 +15,7 @@ bool is_constant(const Curve<double>& curve) {
   return curve.start() == curve.end();
 }
 
-/// Whether two curves are polynomials between the same knots and go on alike beyond them.
+/// Whether two curves are polynomials between the same knots and continue alike beyond them.
 bool alike(const Curve<double>& a, const Curve<double>& b) {
   const auto same = [](const OutsideRule<double>& one, const OutsideRule<double>& other) {
     return one.rule == other.rule && one.plays == other.plays && !one.slope && !other.slope;
@@ -24,7 +24,7 @@ bool alike(const Curve<double>& a, const Curve<double>& b) {
          same(a.rule_after(), b.rule_after());
 }
 
-/// The spans of a curve that are plain polynomials; nothing where one is not.
+/// The spans of a curve if all are plain polynomials; else empty.
 std::optional<std::vector<Span<double>>> plain_spans(const Curve<double>& curve) {
   std::vector<Span<double>> spans = curve.spans();
   if (spans.size() + 1 != curve.knots().size()) return std::nullopt;
@@ -40,7 +40,7 @@ void put(const Span<double>& part, int row, Span<Vec3>& span) {
   span.end[row] = part.end;
 }
 
-/// Spans of vectors from spans of numbers with the same knots; nothing where they differ.
+/// Spans of vectors from spans of numbers with the same knots; empty where the knots differ.
 std::optional<Curve<Vec3>> joined_spans(const std::array<Curve<double>, 3>& parts) {
   const Curve<double>* moving = nullptr;
   for (const Curve<double>& part : parts) {
@@ -137,7 +137,7 @@ Sample<double> power(const Sample<double>& base, const Sample<double>& exponent)
   if (exponent.value >= 1) return base;
   const double size = std::abs(base.value);
   if (!(size > 0)) return {0, 0, 0};
-  // The logarithm of the result and its rates; the result's rates are these times itself.
+  // The logarithm of the result and its rates; the result's rates are these times the result.
   const double log = elementary::log(size), slope = base.rate / base.value;
   const double first = exponent.rate * log + exponent.value * slope;
   const double second = exponent.acceleration * log + 2 * exponent.rate * slope +

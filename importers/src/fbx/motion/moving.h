@@ -8,7 +8,7 @@
 
 namespace tweenfall::fbx {
 
-/// A curve, and whether the file drives it at all or it is only what rests.
+/// A curve, and whether the file drives it at all or it is only the value at rest.
 template <class T>
 struct Channel {
   Curve<T> curve;
@@ -30,7 +30,7 @@ class Knots {
   std::vector<double> times_;
 };
 
-/// The formula with those knots; without any, the constant that it is.
+/// The formula with those knots; without any knots, the constant.
 template <class T>
 [[nodiscard]] Curve<T> composed(typename Curve<T>::Formula formula, const Knots& knots) {
   std::vector<double> times = knots.sorted();
@@ -38,7 +38,7 @@ template <class T>
   return Curve<T>(std::move(formula), std::move(times));
 }
 
-/// Three numbers as one vector. Where they have the same keys it has their spans, too.
+/// Three curves of numbers as one of vectors. If they have the same keys, their spans are kept.
 [[nodiscard]] Curve<Vec3> vector_curve(const Curve<double>& x, const Curve<double>& y, const Curve<double>& z);
 
 [[nodiscard]] Sample<Vec3> sum(const Sample<Vec3>& a, const Sample<Vec3>& b) noexcept;
@@ -48,7 +48,7 @@ template <class T>
 [[nodiscard]] Sample<Vec3> product(const Sample<Vec3>& a, const Sample<Vec3>& b) noexcept;
 [[nodiscard]] Sample<Vec3> scaled(const Sample<Vec3>& a, const Sample<double>& factor) noexcept;
 [[nodiscard]] Sample<Vec3> turned(const Sample<Quat>& rotation, const Sample<Vec3>& v) noexcept;
-/// base^exponent with the base's sign; for an exponent of 0 or less 1, of 1 or more the base.
+/// base^exponent with the sign of the base; 1 for an exponent of 0 or less, the base for one of 1 or more.
 [[nodiscard]] Sample<double> power(const Sample<double>& base, const Sample<double>& exponent) noexcept;
 
 /// The product of two channels, component by component.

@@ -17,7 +17,7 @@ namespace tweenfall::fbx {
 
 namespace {
 
-/// Properties that place a node or mold a mesh; others of the file move lights, materials and the like.
+/// Properties that move a node or morph a mesh; others in the file are for lights, materials and the like.
 const std::set<std::string_view>& read_properties() {
   static const std::set<std::string_view> all{"Lcl Translation", "Lcl Rotation",  "Lcl Scaling",  "RotationOffset",
                                               "RotationPivot",   "ScalingOffset", "ScalingPivot", "PreRotation",
@@ -29,7 +29,7 @@ std::size_t part_of(std::string_view property) {
   return property.ends_with('Y') ? 1 : property.ends_with('Z') ? 2 : 0;
 }
 
-/// A share from 0 to 1 out of per cent, at rest where it is cut.
+/// A share from 0 to 1 from percent, at rest where it is clamped.
 Sample<double> share(const Sample<double>& percent) {
   if (percent.value < 0) return {0, 0, 0};
   if (percent.value > 99.999) return {1, 0, 0};
@@ -61,7 +61,7 @@ class StackReader {
         problems_.repair(clip_, "its layer \"" + objects_[layers[i]].name + "\" is " +
                                     (alone ? "not the one in solo" : "muted") + "; it was left out");
     }
-    // Where the stack does not say, it begins as its keys do.
+    // Where the stack does not state a start, it begins with its keys.
     const double start = objects_.property(object, begins) ? time(object, begins) : first_key(stack);
     if (start < 0)
       problems_.repair(clip_, "begins at " + number_text(start) + " s; what lies before 0 s is not played");
@@ -129,7 +129,7 @@ class StackReader {
                      "\"" + utf8_or_latin1(target.property) + "\" of \"" + objects_[target.to].name + "\" " + what);
   }
 
-  /// What a part without keys is: the value that the curve node states, else that of the driven object.
+  /// The value of a part without keys: the one stated by the curve node, else that of the driven object.
   double resting(std::size_t node, std::size_t part, bool number, const Connection& target) const {
     const Object& object = objects_[node];
     const std::string letter(1, "XYZ"[part]);
@@ -148,7 +148,7 @@ class StackReader {
 
   const Objects& objects_;
   models::ModelProblems& problems_;
-  std::string clip_;  ///< as problems name it
+  std::string clip_;  ///< its name in problems
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-// The animation stacks of an FBX file: what each drives, in which layers.
+// The animation stacks of an FBX file: what each drives, by layers.
 
 #include "fbx/motion/moving.h"
 #include "fbx/objects.h"
@@ -11,17 +11,17 @@
 
 namespace tweenfall::fbx {
 
-/// How a layer's values join those below it. Source: Autodesk, FBX SDK, FbxAnimLayer.
+/// How a layer's values are combined with those below it. Source: Autodesk, FBX SDK, FbxAnimLayer.
 struct Layer {
   enum class Blend { add, replace, mix };
 
   Blend blend = Blend::add;
   Curve<double> weight{1.0};
-  bool whole_rotations = true;  ///< rotations are turned by each other, not angle by angle
+  bool whole_rotations = true;  ///< rotations are multiplied, not added angle by angle
   bool factors = true;          ///< scales are multiplied, not added
 };
 
-/// One animated property: its parts' curves and what the parts without one are.
+/// One animated property: the curves of its parts, constant for parts without one.
 struct Driver {
   std::size_t layer = 0;
   std::vector<Curve<double>> parts;  ///< in the file's units; three, or one for a number
@@ -29,7 +29,7 @@ struct Driver {
 
 struct Stack {
   std::string name;
-  double end = 0;  ///< s; 0 where the file does not say
+  double end = 0;  ///< s; 0 where the file does not state it
   std::vector<Layer> layers;
   /// By object and property, lowest layer first.
   std::map<std::pair<std::size_t, std::string>, std::vector<Driver>> drivers;

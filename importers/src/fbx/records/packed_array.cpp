@@ -8,7 +8,7 @@ namespace tweenfall::fbx {
 
 namespace {
 
-/// A byte of a deflated stream stands for at most this many. Source: zlib, "Technical details", maximum compression.
+/// A byte of a deflated stream expands to at most this many. Source: zlib, "Technical details", maximum compression.
 constexpr std::size_t most_per_byte = 1032;
 /// More than any real mesh has.
 constexpr std::size_t most_bytes = std::size_t{1} << 31;

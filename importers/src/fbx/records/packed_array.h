@@ -6,7 +6,7 @@
 
 namespace tweenfall::fbx {
 
-/// How an array says it is stored.
+/// How an array is stored, as stated by the file.
 struct PackedArray {
   std::size_t at = 0;         ///< the byte where it begins, for errors
   std::size_t count = 0;      ///< elements
@@ -15,8 +15,8 @@ struct PackedArray {
   std::string_view stored{};  ///< bytes in the file
 };
 
-/// The array's count * size bytes. Memory grows with what really comes out, never with what the file states; what
-/// cannot be in so few bytes is refused beforehand. @throws ModelError with the place
+/// The array's count * size bytes. Memory grows with the actual output, never with the size stated by the file; sizes
+/// impossible for so few bytes are refused beforehand. @throws ModelError with the place
 [[nodiscard]] std::string unpacked(const PackedArray& array, const Source& source);
 
 }  // namespace tweenfall::fbx

@@ -1,6 +1,6 @@
 #pragma once
 
-// What an FBX file is made of, text and binary alike: records with a name, values and records inside.
+// The elements of an FBX file, text or binary: records with a name, values and nested records.
 
 #include <cstdint>
 #include <string>
@@ -23,12 +23,12 @@ struct Record {
   /// The first child of that name, or null.
   [[nodiscard]] const Record* find(std::string_view child) const;
 
-  /// Value `index` as what is asked for; the other one where it is absent or of another kind.
+  /// Value `index` as the requested type; `otherwise` where it is absent or of another kind.
   [[nodiscard]] std::int64_t whole(std::size_t index, std::int64_t otherwise) const;
   [[nodiscard]] double number(std::size_t index, double otherwise) const;
   [[nodiscard]] std::string_view text(std::size_t index) const;
 
-  /// All numbers of the record, be they one array or single values.
+  /// All numbers of the record, stored as one array or as single values.
   [[nodiscard]] Reals reals() const;
   [[nodiscard]] Integers integers() const;
   /// The numbers of the child of that name; none where there is no such child.
@@ -36,10 +36,10 @@ struct Record {
   [[nodiscard]] Integers integers(std::string_view child) const;
 };
 
-/// How deep records lie within each other at most; real files stay below ten.
+/// Greatest nesting depth of records; real files stay below ten.
 inline constexpr std::size_t deepest = 64;
 
-/// A real as a whole number, as far as one can hold it.
+/// A real as an integer, clamped to the range of integers.
 [[nodiscard]] std::int64_t whole_of(double value) noexcept;
 
 }  // namespace tweenfall::fbx

@@ -1,6 +1,6 @@
 #pragma once
 
-// An FBX file taken apart into records, from its text or its binary form.
+// Parses an FBX file into records, from its text or its binary form.
 // Source: A. Cruz and others, "FBX binary file format specification", code.blender.org, 2013; for the 64-bit headers of
 // version 7500 and the text, the files themselves.
 
@@ -17,7 +17,7 @@ struct File {
 /// Whether the bytes are those of a binary file.
 [[nodiscard]] bool is_binary(std::string_view bytes) noexcept;
 
-/// @throws ModelError with the place for what is no FBX.
+/// @throws ModelError with the place where the bytes are not FBX.
 [[nodiscard]] File read_records(const Source& source);
 
 [[nodiscard]] File read_binary_records(const Source& source);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The bytes of an FBX file, and how a place in them is told.
+// The bytes of an FBX file, and places in them for messages.
 
 #include <filesystem>
 #include <string>
@@ -16,20 +16,20 @@ class Source {
   [[nodiscard]] std::string_view bytes() const { return bytes_; }
   [[nodiscard]] bool text() const { return text_; }
 
-  /// "line 3" or "byte 120". Of one reader's thread, for it remembers how far lines were counted.
+  /// "line 3" or "byte 120". For one thread only, since it remembers how far lines were counted.
   [[nodiscard]] std::string place(std::size_t at) const;
 
   /// @throws ModelError naming the file, and the line and column or the byte.
   [[noreturn]] void fail(std::size_t at, const std::string& what) const;
 
  private:
-  /// Goes on from the place that it was asked for before: most questions come in the file's order.
+  /// Continues from the place of the previous call: most calls come in the file's order.
   [[nodiscard]] std::size_t line_of(std::size_t at) const;
 
   std::string_view bytes_;
   std::string file_;
   bool text_;
-  mutable std::size_t counted_ = 0, lines_ = 0;  ///< ends of lines before a byte
+  mutable std::size_t counted_ = 0, lines_ = 0;  ///< number of line ends before a byte
 };
 
 }  // namespace tweenfall::fbx

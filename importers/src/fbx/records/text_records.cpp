@@ -105,13 +105,13 @@ class TextReader {
         record.values.emplace_back(quoted());
       } else {
         const std::string_view given = word();
-        // Without a comma before it, a word with a colon behind it is the next record's.
+        // Without a comma before it, a word followed by a colon is the name of the next record.
         if (next() == ':') {
           at_ = begin;
           return;
         }
         if (given.empty()) source_.fail(begin, "expected a value");
-        // The count of an array tells nothing that its numbers do not.
+        // The count of an array is redundant.
         if (given[0] != '*') record.values.push_back(value_of(given));
       }
       if (next() != ',') return;
@@ -153,7 +153,7 @@ class TextReader {
                  : std::numeric_limits<double>::infinity();
       return true;
     }
-    // "1.#IND" and its like, as some programs print what is no number.
+    // "1.#IND" and the like, printed by some programs for NaN.
     if (read.ptr != given.data() && *read.ptr == '#') {
       real = std::numeric_limits<double>::quiet_NaN();
       return true;
@@ -161,7 +161,7 @@ class TextReader {
     return false;
   }
 
-  /// The numbers of an array: whole as long as all of them are.
+  /// The numbers of an array: integers if all of them are.
   Value read_numbers() {
     Integers integers;
     Reals reals;
@@ -185,7 +185,7 @@ class TextReader {
         }
         reals.push_back(*real);
       } else if (given.size() == 1 && whole) {
-        // Truth values as letters.
+        // Booleans written as letters.
         integers.push_back(given[0]);
       } else {
         source_.fail(begin, "expected a number, found \"" + std::string(given.substr(0, 40)) + "\"");

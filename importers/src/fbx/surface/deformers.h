@@ -1,6 +1,6 @@
 #pragma once
 
-// What bends and molds an FBX geometry: skins and blend shapes.
+// The deformers of an FBX geometry: skins and blend shapes.
 
 #include "fbx/nodes.h"
 #include "fbx/surface/geometry.h"
@@ -10,7 +10,7 @@ namespace tweenfall::fbx {
 /// An affine map: linear * p + translation.
 using Affine = Skin::InverseBind;
 
-/// The move, turn and scale that a node gives its geometry and not its children.
+/// The transform that a node applies to its geometry but not to its children.
 [[nodiscard]] Affine geometric_transform(const Objects& objects, std::size_t model);
 
 /// Joints and weights for the control points of a geometry.
@@ -18,7 +18,7 @@ struct SkinData {
   Skin skin;                                         ///< no joints where the geometry has no skin
   std::vector<std::vector<Influence>> influences{};  ///< one list per control point, each summing to 1
 };
-/// Points that nothing pulls follow the mesh's own node.
+/// Points without an influence follow the mesh's own node.
 [[nodiscard]] SkinData read_skin(std::size_t geometry, std::size_t model, std::size_t control_points,
                                  const Objects& objects, const Nodes& nodes, models::ModelProblems& problems);
 
@@ -26,9 +26,9 @@ struct SkinData {
 struct Shape {
   std::string name;
   std::size_t channel = 0;  ///< the object whose DeformPercent moves it
-  std::size_t place = 0;    ///< among the channel's shapes
+  std::size_t place = 0;    ///< index among the channel's shapes
   std::vector<std::uint32_t> points;
-  std::vector<Vec3> position_offsets, normal_offsets;  ///< one per point; normals may be none
+  std::vector<Vec3> position_offsets, normal_offsets;  ///< one per point; normals may be empty
 };
 
 /// All shapes of a geometry, channel by channel.

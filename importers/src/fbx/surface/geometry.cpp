@@ -11,7 +11,7 @@ namespace tweenfall::fbx {
 
 namespace {
 
-/// Values laid over the corners of a mesh, as one of the file's "layer elements" says.
+/// Values for the corners of a mesh, from one of the file's "layer elements".
 class LayerElement {
  public:
   enum class Need { must_be_finite, may_be_left_out };
@@ -41,7 +41,7 @@ class LayerElement {
   [[nodiscard]] bool present() const { return present_ && !broken_; }
   [[nodiscard]] bool broken() const { return broken_; }  ///< some value is not finite
 
-  /// Where the values of a corner begin; null where the element has none for it.
+  /// Pointer to the values of a corner; null where the element has none for it.
   [[nodiscard]] const double* at(std::size_t corner, std::size_t point, std::size_t polygon) const {
     std::size_t index = all_same_ ? 0 : by_point_ ? point : by_polygon_ ? polygon : corner;
     if (indexed_) {
@@ -58,7 +58,7 @@ class LayerElement {
   bool by_point_ = false, by_polygon_ = false, all_same_ = false, indexed_ = false, present_ = false, broken_ = false;
 };
 
-/// Everything that makes a vertex its own, to the bit.
+/// Everything that distinguishes a vertex from others, to the bit.
 struct VertexKey {
   std::uint32_t point = 0;
   double numbers[9]{};  // normal, texture coordinates, tangent and its hand
@@ -96,7 +96,7 @@ class GeometryReader {
                   LayerElement::Need::may_be_left_out),
         across_(record_.find("LayerElementBinormal"), "Binormals", "BinormalsIndex", 3, objects,
                 LayerElement::Need::may_be_left_out) {
-    // Exporters write such where a texture has no extent.
+    // Exporters write non-finite tangents where a texture has no extent.
     has_tangents_ = tangents_.present() && normals_.present() && !across_.broken();
     if (tangents_.broken() || across_.broken())
       problems_.repair("mesh \"" + geometry_.name + "\"", "has tangents that are not finite; they were left out");
@@ -111,7 +111,7 @@ class GeometryReader {
     std::vector<std::size_t> polygon, points;
     std::size_t polygons = 0, points_and_lines = 0;
     for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-      // The last corner of a polygon is stored with all bits turned.
+      // The last corner of a polygon is stored with all bits inverted.
       const bool last = corners[corner] < 0;
       const std::int64_t point = last ? ~corners[corner] : corners[corner];
       if (point < 0 || static_cast<std::size_t>(point) >= points_.size())
@@ -152,7 +152,7 @@ class GeometryReader {
     }
   }
 
-  /// The polygons' materials are indices themselves, so that the index list holds all there is.
+  /// The polygons' materials are indices themselves, so the index list holds everything.
   LayerElement material_layer() {
     const Record* layer = record_.find("LayerElementMaterial");
     if (layer) {
@@ -214,7 +214,7 @@ class GeometryReader {
       const Vec3 along = unit({key.numbers[5], key.numbers[6], key.numbers[7]});
       part.mesh.tangents.emplace_back(along.x(), along.y(), along.z(), key.numbers[8]);
     }
-    // Pictures begin at the top, as ours do; the file counts from the bottom.
+    // Our texture coordinates count from the top, those of the file from the bottom.
     if (coordinates_.present()) part.mesh.texture_coordinates.emplace_back(key.numbers[3], 1 - key.numbers[4]);
     return next;
   }

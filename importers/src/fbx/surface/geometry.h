@@ -1,6 +1,6 @@
 #pragma once
 
-// A geometry of an FBX file as triangles, and which of its control points each vertex came from.
+// A geometry of an FBX file as triangles, and the control point of each vertex.
 
 #include "fbx/objects.h"
 
@@ -17,19 +17,19 @@ struct Part {
 };
 
 struct Geometry {
-  std::size_t control_points = 0;  ///< how many there are
-  std::vector<Part> parts;         ///< one per color that the materials have
+  std::size_t control_points = 0;  ///< number of control points
+  std::vector<Part> parts;         ///< one per color of the materials
 };
 
 /// @param colors  of the node's materials, in order
-/// @throws ModelError with the place of what points past the lists.
+/// @throws ModelError with the place of an index beyond its list.
 [[nodiscard]] Geometry read_geometry(const Object& geometry, const std::vector<Color>& colors, const Objects& objects,
                                      models::ModelProblems& problems);
 
 /// The base color of a material.
 [[nodiscard]] Color base_color(const Object& material, const Objects& objects);
 
-/// What is there before any material says otherwise.
+/// The color without any material.
 [[nodiscard]] Color plain_color();
 
 }  // namespace tweenfall::fbx

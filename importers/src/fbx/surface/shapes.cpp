@@ -17,28 +17,28 @@ bool all_finite(const std::vector<Vec3>& all) {
   return std::ranges::all_of(all, [](const Vec3& v) { return v.allFinite(); });
 }
 
-/// The share of the channel, 1 at 100 %, at which each of its shapes is there alone.
+/// The share of the channel, 1 at 100 %, at which only this shape shows, for each of its shapes.
 std::vector<double> full_shares(std::size_t channel, std::size_t shapes, const Objects& objects) {
   Reals percents = objects[channel].record->reals("FullWeights");
   std::vector<double> shares(shapes, 1.0);
-  // Blender writes one number per point here, which says something else.
+  // Blender writes one number per point here, with another meaning.
   if (percents.size() != shapes) return shares;
   for (std::size_t i = 0; i < shapes; ++i)
     if (std::isfinite(percents[i])) shares[i] = percents[i] / 100;
   return shares;
 }
 
-/// How much of one shape shows where the channel stands at a share: from none through the shapes in order of their
-/// shares, and straight on beyond the last. Value and slope.
+/// The weight of one shape where the channel is at a share: linear from shape to shape in order of their shares, and
+/// extrapolated beyond the last. Value and slope.
 std::pair<double, double> shown(const std::vector<double>& shares, std::size_t shape, double at) {
-  // The shapes on this side of zero, by distance from it.
+  // The shapes on this side of zero, in order of distance.
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < shares.size(); ++i)
     if (at > 0 ? shares[i] >= 0 : shares[i] < 0) order.push_back(i);
   std::ranges::stable_sort(order,
                            [&](std::size_t a, std::size_t b) { return std::abs(shares[a]) < std::abs(shares[b]); });
   if (order.empty()) {
-    // Below zero without a shape there the nearest above goes on backwards.
+    // Below zero without a shape there, the nearest one above is extrapolated backwards.
     for (std::size_t i = 0; i < shares.size(); ++i)
       if (order.empty() || std::abs(shares[i]) < std::abs(shares[order[0]])) order = {i};
   }

@@ -73,7 +73,7 @@ class SkinReader {
     }
   }
 
-  /// From the mesh's node to the joint, as both rest.
+  /// The map from the mesh's node to the joint, with both at rest.
   Affine bound_at_rest(std::size_t model, std::size_t bone) const {
     const WorldMotion mesh = nodes_.at_rest(model), joint = nodes_.at_rest(bone);
     Affine result;

@@ -6,7 +6,7 @@ namespace tweenfall::fbx {
 
 namespace {
 
-/// Beyond this many corners the search for ears, which grows with the square, would take too long.
+/// Beyond this many corners the search for ears, which takes quadratic time, would take too long.
 constexpr std::size_t most_ears = 2000;
 
 Vec3 newell_normal(std::span<const Vec3> polygon) {
@@ -22,7 +22,7 @@ class Cutter {
  public:
   Cutter(std::span<const Vec3> polygon, const Vec3& normal) : polygon_(polygon), normal_(normal) {}
 
-  /// How far the corner b turns left of the way from a; below 0 it is a dent.
+  /// How far the path from a turns left at corner b; below 0 the corner is concave.
   [[nodiscard]] double turn(std::size_t a, std::size_t b, std::size_t c) const {
     const Vec3 to = polygon_[b] - polygon_[a], on = polygon_[c] - polygon_[b];
     return to.cross(on).dot(normal_);
@@ -42,7 +42,7 @@ class Cutter {
     while (left.size() > 3) {
       std::size_t ear = 0;
       while (ear < left.size() && !is_ear(left, ear)) ++ear;
-      // A polygon that crosses itself may have none: the first corner goes all the same.
+      // A polygon that crosses itself may have none: then the first corner is cut off anyway.
       if (ear == left.size()) ear = 0;
       const std::size_t n = left.size();
       cut.push_back({left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});

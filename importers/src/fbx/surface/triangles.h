@@ -10,7 +10,7 @@
 
 namespace tweenfall::fbx {
 
-/// Corners of the triangles, as places in the polygon. A convex or very large polygon is cut from its first corner,
+/// Corners of the triangles, as indices into the polygon. A convex or very large polygon is cut from its first corner,
 /// another one ear by ear, in the plane that fits it best.
 /// Source: G. Meisters, "Polygons have ears", 1975; the plane after M. Newell.
 [[nodiscard]] std::vector<std::array<std::size_t, 3>> triangles_of(std::span<const Vec3> polygon);

@@ -12,10 +12,10 @@ namespace {
 using Json = nlohmann::json;
 using Axes = std::vector<int>;
 
-/// What a motor that holds its speed exactly becomes: a damper for a reduced mass of 1, 1/s.
+/// A motor that holds its speed exactly is written as a damper: for a reduced mass of 1, 1/s.
 constexpr double stiffest_damping = 1e6;
 
-/// Limits and drives in the making.
+/// Collects the limits and drives of a joint.
 class Form {
  public:
   explicit Form(const std::optional<ReducedMass>& mass) : mass_(mass) {}

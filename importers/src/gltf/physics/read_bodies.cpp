@@ -18,7 +18,7 @@ bool is_even(const Vec3& scale) {
   return (scale.array() - scale[0]).abs().maxCoeff() <= even_enough * std::abs(scale[0]);
 }
 
-/// Round about y, or all around.
+/// Whether a solid is rotationally symmetric about y.
 bool is_round(const Solid& solid) {
   return !std::holds_alternative<Box>(solid) && !std::holds_alternative<Hull>(solid) &&
          !std::holds_alternative<TriangleMesh>(solid) && !std::holds_alternative<Plane>(solid);
@@ -69,7 +69,7 @@ class BodyReader {
   }
 
   void find_parts() {
-    std::map<std::size_t, std::size_t> whole;  // of a trigger's nodes
+    std::map<std::size_t, std::size_t> whole;  // number of a trigger's nodes
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i)
       for (const std::size_t part : physics_at(i).inside("trigger").indices("nodes", scene_.nodes.size()))
         whole.emplace(part, i);
@@ -128,7 +128,7 @@ class BodyReader {
     return true;
   }
 
-  /// A surface as what can move, where there is such a thing.
+  /// Replaces a surface by a solid that can move, if possible.
   bool make_solid(std::size_t node, Shape& shape) {
     const std::string what = kind_name(shape.solid);
     if (const auto* mesh = std::get_if<TriangleMesh>(&shape.solid)) {
@@ -163,7 +163,7 @@ class BodyReader {
     if (!body.body.fixed) read_mass_properties(motion, body);
   }
 
-  /// Where its mass is and its inertia, which only go together.
+  /// Center of mass and inertia, which are only used together.
   void read_mass_properties(const Fields& motion, ModelBody& body) {
     const auto refuse = [&](const char* name, const char* why) {
       motion.problems().repair(motion.place_of(name), std::string("was not read: ") + why);
@@ -253,7 +253,7 @@ class BodyReader {
       return implicit_solid(shapes_.at("shapes", *index), scale);
     if (const auto node = geometry.index("node", scene_.nodes.size()))
       return solid_of_points(geometry, points_of(*node, scale), geometry.flag("convexHull"));
-    // As drafts before 2024 had it.
+    // As in drafts before 2024.
     if (const auto mesh = geometry.index("mesh", scene_.meshes.size())) {
       SurfaceMesh points;
       append(points, *mesh, {{0, 0, 0}, Quat::Identity(), scale});
@@ -304,7 +304,7 @@ class BodyReader {
     }
   }
 
-  /// Of the node's mesh and its descendants', in its own space, scaled.
+  /// The points of the meshes of the node and its descendants, in its own space, scaled.
   [[nodiscard]] SurfaceMesh points_of(std::size_t node, const Vec3& scale) const {
     SurfaceMesh out;
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
@@ -337,7 +337,7 @@ class BodyReader {
   std::map<std::size_t, std::vector<Part>> colliders_, triggers_;  // by the body they belong to
   std::map<std::string, std::size_t> groups_;
   std::vector<ModelBody> bodies_;
-  std::size_t count_ = 0;  // of geometries that were told of
+  std::size_t count_ = 0;  // of geometries reported
 };
 
 }  // namespace

@@ -30,14 +30,14 @@ struct JointDrive {
   double position = 0, velocity = 0, stiffness = 0, damping = 0, most = endless;
 };
 
-/// What limits leave of each axis.
+/// The freedom that limits leave for each axis.
 struct Freedom {
   std::array<bool, 3> locked{};
-  std::array<const Bound*, 3> bound{};  ///< of one axis alone
-  const Bound* shared = nullptr;        ///< of several that it does not lock
+  std::array<const Bound*, 3> bound{};  ///< of a single axis
+  const Bound* shared = nullptr;        ///< of several axes that it does not lock
 
   [[nodiscard]] int count() const { return static_cast<int>(std::count(locked.begin(), locked.end(), true)); }
-  /// The only axis that is, or is not, locked.
+  /// The first axis that is, or is not, locked.
   [[nodiscard]] int only(bool which) const {
     const auto found = std::find(locked.begin(), locked.end(), which);
     return static_cast<int>(found - locked.begin());
@@ -84,7 +84,7 @@ class JointReader {
   [[nodiscard]] End end_at(std::size_t node) const {
     const std::size_t mover = mover_[node] != no_node && has_body_[mover_[node]] ? mover_[node] : no_node;
     Pose frame = pose_within(scene_, node, mover);
-    // Frames of joints leave out how the body's node is scaled.
+    // Frames of joints do not include the scale of the body's node.
     if (mover != no_node) frame.position = frame.position.cwiseProduct(pose_within(scene_, mover, no_node).scale);
     return {mover, {frame.position, frame.rotation}};
   }
@@ -115,7 +115,7 @@ class JointReader {
     return joint;
   }
 
-  /// Bounds and drives, as b stands against a.
+  /// Bounds and drives of b relative to a.
   void read_form(const Fields& form, bool turned_about) {
     bounds_.clear();
     drives_.clear();
@@ -255,7 +255,7 @@ class JointReader {
     if (turns.shared)
       axis = static_cast<int>(3 - turns.shared->axes[0] - turns.shared->axes[1]);
     else
-      // What is bounded differently to both sides, or not at all, can only be the twist.
+      // An axis with different bounds on both sides, or without bounds, can only be the twist.
       for (int i = 2; i >= 0; --i) {
         const Bound* bound = turns.bound[static_cast<std::size_t>(i)];
         if (!bound || bound->low != -bound->high) axis = i;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Bodies and joints of a glTF document that has the extensions KHR_implicit_shapes and KHR_physics_rigid_bodies.
+// Bodies and joints of a glTF document with the extensions KHR_implicit_shapes and KHR_physics_rigid_bodies.
 // Source: Khronos Group, drafts of the two, 2024.
 
 #include "gltf/read/meshes.h"
@@ -13,7 +13,7 @@
 
 namespace tweenfall::gltf::physics {
 
-/// The file as its parts were read; indices are the file's.
+/// The parts of the file read so far; indices are those of the file.
 struct FileScene {
   const Fields& root;
   std::span<const FileNode> nodes;
@@ -21,18 +21,18 @@ struct FileScene {
   std::vector<char> animated;  ///< by node: a clip moves it or an ancestor
 };
 
-/// By node: the nearest of itself and its ancestors that has a motion of its own, or `no_node`.
+/// By node: the nearest among itself and its ancestors that has a motion of its own, or `no_node`.
 [[nodiscard]] std::vector<std::size_t> movers(const FileScene& scene);
 
-/// Where a node is in the space of an ancestor, or of the world for `no_node`; scales multiplied.
+/// The pose of a node in the space of an ancestor, or in the world for `no_node`; scales are multiplied.
 [[nodiscard]] Pose pose_within(const FileScene& scene, std::size_t node, std::size_t ancestor);
 
-/// What of it cannot be had here is told as a repair.
+/// Whatever is not supported here is reported as a repair.
 [[nodiscard]] std::vector<ModelBody> read_bodies(const FileScene& scene);
 /// @param bodies  those of the same file
 [[nodiscard]] std::vector<JointDescription> read_joints(const FileScene& scene, std::span<const ModelBody> bodies);
 
-/// What a node's extension holds; empty for none.
+/// The content of a node's extension; empty for none.
 [[nodiscard]] Fields physics_of(const Fields& root, std::size_t node);
 /// A finite number; `otherwise` when absent or wrong.
 [[nodiscard]] std::optional<double> number_of(const Fields& fields, const char* name);

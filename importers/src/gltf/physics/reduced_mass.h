@@ -8,18 +8,19 @@
 
 namespace tweenfall::gltf::physics {
 
-/// What a spring between the two ends of a joint moves: glTF tells springs by their stiffness, a joint by frequency.
+/// The reduced mass moved by a spring between the two ends of a joint: glTF states springs by stiffness, our joints by
+/// frequency.
 struct ReducedMass {
   double linear = 0;   ///< kg
   double angular = 0;  ///< about the frame's x axis through its origin, kg m^2
 };
 
-/// Bodies by node, and what they weigh.
+/// The masses of bodies, by node.
 class Masses {
  public:
   Masses(std::size_t nodes, std::span<const ModelBody> bodies);
 
-  /// Of the ends that can move; empty where none can.
+  /// The reduced mass of the ends that can move; empty where none can.
   [[nodiscard]] std::optional<ReducedMass> reduced(const JointDescription& joint) const;
 
  private:

@@ -28,7 +28,7 @@ Quat from_up(const Vec3& direction) {
   return Quat(1 + direction.y(), axis.x(), axis.y(), axis.z()).normalized();
 }
 
-/// Where its mass is, and its inertia by principal axes.
+/// The center of mass, and the inertia by principal axes.
 void write_mass_properties(const MassProperties& mass, Json& motion) {
   const Eigen::SelfAdjointEigenSolver<Mat3> principal(mass.inertia);
   Mat3 axes = principal.eigenvectors();
@@ -39,7 +39,7 @@ void write_mass_properties(const MassProperties& mass, Json& motion) {
   motion["inertiaOrientation"] = Json::array({turn.x(), turn.y(), turn.z(), turn.w()});
 }
 
-/// Things that are listed once each, however often they are meant.
+/// A list of distinct things, however often they are used.
 class Listed {
  public:
   std::size_t add(const Json& thing) {
@@ -54,7 +54,7 @@ class Listed {
   Json all_ = Json::array();
 };
 
-/// A solid that the extension knows by itself; null for all others.
+/// A solid that the extension has a shape for; null for all others.
 Json implicit_shape(const Solid& solid) {
   if (const auto* sphere = std::get_if<Sphere>(&solid))
     return {{"type", "sphere"}, {"sphere", {{"radius", sphere->radius}}}};
@@ -143,7 +143,7 @@ class PhysicsWriter {
     const std::size_t index = joints_.add(Json::parse(form));
     const std::size_t a = add_frame(joint.name + " a", joint.a, joint.frame_a);
     const std::size_t b = add_frame(joint.name, joint.b, joint.frame_b);
-    // How b's frame stands against a's is what is limited: a is the extension's first.
+    // The pose of b's frame relative to a's is limited, so a is the extension's first node.
     Json& said = of_nodes_[a]["joint"];
     said = {{"connectedNode", b}, {"joint", index}};
     if (joint.collide) said["enableCollision"] = true;
@@ -168,12 +168,12 @@ class PhysicsWriter {
 
   std::size_t add_frame(const std::string& name, std::size_t node, const Pose& frame) {
     Pose pose{frame.position, frame.rotation};
-    // A joint's frames leave out how its nodes are scaled.
+    // A joint's frames do not include the scales of its nodes.
     if (node != no_node) pose.position = pose.position.cwiseQuotient(scales_[node]);
     return add_node({name, node, pose});
   }
 
-  /// Whether what is drawn of a node is the solid's own surface, and nothing more.
+  /// Whether the mesh drawn for a node is exactly the solid's own surface.
   [[nodiscard]] bool wears(std::size_t node, const Shape& shape) const {
     const Mesh* worn = nullptr;
     for (const MeshInstance& instance : model_.instances) {
@@ -226,7 +226,7 @@ class PhysicsWriter {
   static Json material_of(const BodyDescription& body) {
     Json material{
         {"staticFriction", body.friction}, {"dynamicFriction", body.friction}, {"restitution", body.restitution}};
-    // Frictions are usually combined by their geometric mean, which has no word.
+    // Frictions are usually combined by their geometric mean, for which the extension has no word.
     if (const char* word = combine_word(body.friction_combine, nullptr)) material["frictionCombine"] = word;
     if (const char* word = combine_word(body.restitution_combine, "maximum")) material["restitutionCombine"] = word;
     return material;
@@ -251,8 +251,8 @@ class PhysicsWriter {
   Masses masses_;
   std::size_t first_node_, first_mesh_;
   BufferWriter& buffer_;
-  std::vector<Vec3> scales_;  ///< of each node's space, its ancestors' in it
-  std::uint64_t groups_ = 0;  ///< that some body is in
+  std::vector<Vec3> scales_;  ///< of each node's space, including those of its ancestors
+  std::uint64_t groups_ = 0;  ///< that contain some body
   std::map<std::size_t, Json> of_nodes_;
   Listed shapes_, materials_, filters_, joints_;
   WrittenPhysics written_;

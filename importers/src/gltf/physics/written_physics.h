@@ -1,6 +1,6 @@
 #pragma once
 
-// Bodies and joints of a model as the extensions KHR_implicit_shapes and KHR_physics_rigid_bodies have them.
+// Bodies and joints of a model in the form of the extensions KHR_implicit_shapes and KHR_physics_rigid_bodies.
 // Source: Khronos Group, drafts of KHR_implicit_shapes and KHR_physics_rigid_bodies, 2024.
 
 #include "gltf/physics/reduced_mass.h"
@@ -27,19 +27,19 @@ struct PlacedNode {
   bool in_scene = true;
 };
 
-/// A mesh that is collided with and not drawn: accessors.
+/// The accessors of a mesh for collisions that is not drawn.
 struct ColliderMesh {
   std::size_t positions = 0, indices = 0;
 };
 
 struct WrittenPhysics {
-  std::vector<PlacedNode> nodes;                ///< their indices follow those that are there
-  std::vector<ColliderMesh> meshes;             ///< the same
-  std::map<std::size_t, std::string> of_nodes;  ///< by node, what its extension holds, as JSON
-  std::string shapes, physics;                  ///< what the document's extensions hold, as JSON; empty without bodies
+  std::vector<PlacedNode> nodes;                ///< their indices follow the existing ones
+  std::vector<ColliderMesh> meshes;             ///< likewise
+  std::map<std::size_t, std::string> of_nodes;  ///< by node, the content of its extension as JSON
+  std::string shapes, physics;                  ///< content of the document's extensions as JSON; empty without bodies
 };
 
-/// @param nodes, meshes  how many the document has already
+/// @param nodes, meshes the numbers that the document has already
 [[nodiscard]] WrittenPhysics write_physics(const Model& model, std::size_t nodes, std::size_t meshes,
                                            BufferWriter& buffer);
 

@@ -183,7 +183,7 @@ std::optional<Decoded> Accessors::read(std::size_t accessor, const std::string& 
     from = source(fields, "byteOffset", decoded.count, part_size * decoded.parts);
     if (!from) return std::nullopt;
   }
-  // So that no product with what an element takes is too large a number.
+  // So that no product with the size of an element overflows.
   constexpr auto most = static_cast<std::size_t>(
       std::min<std::uint64_t>(std::uint64_t{1} << 40, std::numeric_limits<std::size_t>::max() / 64));
   if (decoded.count > most || !afford(fields, decoded.count * decoded.parts)) {

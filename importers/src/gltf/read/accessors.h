@@ -9,12 +9,12 @@
 
 namespace tweenfall::gltf {
 
-/// What a reader of an accessor asks of its numbers.
+/// The kind of numbers expected from an accessor.
 enum class Wanted {
   reals,    ///< floats, or integers with "normalized"
   any,      ///< the same, or plain integers
   indices,  ///< unsigned integers
-  spare,    ///< reals that are left out with a word where one is not finite
+  spare,    ///< reals that are left out, with a repair, where one is not finite
 };
 
 struct Decoded {
@@ -32,7 +32,7 @@ class Accessors {
   [[nodiscard]] std::size_t size() const { return count_; }
 
   /// The accessor's numbers, all finite; empty after a problem.
-  /// @param user   place of what refers to it
+  /// @param user place of the reference to it
   /// @param types  the allowed ones of "SCALAR", "VEC2", "VEC3", "VEC4", "MAT4"
   [[nodiscard]] std::optional<Decoded> read(std::size_t accessor, const std::string& user,
                                             std::initializer_list<const char*> types, Wanted wanted);

@@ -112,7 +112,7 @@ class AnimationReader {
     return sampler;
   }
 
-  /// Times must increase. Of keys at one time the last stays: it is the one in force from then on.
+  /// Times must increase. Of keys at the same time the last is kept, since it applies from then on.
   bool put_in_order(Sampler& sampler, std::size_t per_key, const std::string& place) {
     const std::vector<double>& times = sampler.times;
     Sampler kept{sampler.interpolation, {}, {}, sampler.width};

@@ -159,7 +159,7 @@ void read_buffers(Container& container, const std::filesystem::path& file, std::
   }
 }
 
-/// Extensions that change nothing in what is read here, or that is read.
+/// Extensions that do not affect what is read here, or that are supported.
 bool can_do_without(const std::string& extension) {
   for (const char* prefix : {"KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_mesh_quantization"})
     if (extension.starts_with(prefix)) return true;
@@ -227,7 +227,7 @@ Container open_container(std::string_view bytes, const std::filesystem::path& fi
   container.document = json::Tree::parse(std::string(chunks.json), faults, rules);
   for (const json::Fault& fault : faults) tell(fault, container, problems);
   if (!faults.empty()) return container;
-  // What is no object, or too large a one, reads as empty, and all that is missing from it would be told too.
+  // A root that is not an object, or too large a one, reads as empty; all that is missing in it would be reported too.
   const Fields root(container.document.root(), "", problems);
   if (problems.any()) return container;
   check_header(container, problems);

@@ -20,13 +20,13 @@ struct Container {
   std::size_t file_size = 0;         ///< bytes of the file and everything it names
 };
 
-/// Takes apart the bytes of a .glb or .gltf, which must outlive what is returned. Whatever is wrong goes to `problems`.
+/// Takes apart the bytes of a .glb or .gltf, which must outlive the result. Faults go to `problems`.
 /// @param file  where it came from; buffers in files of their own must lie in its folder or below
 [[nodiscard]] Container open_container(std::string_view bytes, const std::filesystem::path& file,
                                        models::ModelProblems& problems);
 
-/// Where the value at a place such as "/nodes/0/mesh" stands in the text, or the innermost one around it that is there;
-/// empty for places that are none and for binary files.
+/// The position in the text of the value at a place such as "/nodes/0/mesh", or of the innermost existing one around
+/// it; empty for invalid places and for binary files.
 [[nodiscard]] std::optional<json::TextPlace> place_in(const Container& container, std::string_view place);
 
 }  // namespace tweenfall::gltf

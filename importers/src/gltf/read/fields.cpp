@@ -17,7 +17,7 @@ const json::Value& no_object() {
   return root;
 }
 
-/// Fields are looked for one by one, again for each element of a list beside them.
+/// Bounds the cost: fields are searched one by one, repeatedly for each element of a list beside them.
 constexpr std::size_t most_members = 1000;
 
 const char* kind_of(const json::Value& value) {

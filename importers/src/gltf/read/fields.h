@@ -20,7 +20,7 @@ class Fields {
   [[nodiscard]] std::string place_of(const std::string& name) const { return place_ + "/" + name; }
   [[nodiscard]] bool has(const char* name) const { return static_cast<bool>(find(name)); }
 
-  /// The field as it stands, of whatever type; none when absent.
+  /// The field, of any type; none when absent.
   [[nodiscard]] json::Value find(const char* name) const { return object_.find(name); }
 
   /// A whole number >= 0; empty when absent or wrong.
@@ -33,7 +33,7 @@ class Fields {
   [[nodiscard]] bool flag(const char* name) const;
   /// A list of `count` finite numbers (any count for 0); empty when absent or wrong.
   [[nodiscard]] std::vector<double> numbers(const char* name, std::size_t count) const;
-  /// A list of indices below `limit`; wrong ones are problems and left out.
+  /// A list of indices below `limit`; invalid ones are problems and left out.
   [[nodiscard]] std::vector<std::size_t> indices(const char* name, std::size_t limit) const;
   /// A list; an empty one when absent or wrong.
   [[nodiscard]] json::Items list(const char* name) const;

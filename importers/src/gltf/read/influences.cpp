@@ -12,7 +12,7 @@ struct Set {
   Decoded joints, weights;
 };
 
-/// One pair JOINTS_n and WEIGHTS_n; nothing when absent or wrong.
+/// One pair JOINTS_n and WEIGHTS_n; empty when absent or wrong.
 std::optional<Set> read_set(const Fields& attributes, const std::string& number, std::size_t vertices,
                             Accessors& accessors) {
   const std::string joints_name = "JOINTS_" + number, weights_name = "WEIGHTS_" + number;

@@ -10,11 +10,11 @@
 
 namespace tweenfall::gltf {
 
-/// A mesh as the file has it: one of ours for each primitive made of triangles.
+/// A mesh of the file: one of our meshes for each primitive made of triangles.
 struct FileMesh {
   std::vector<Mesh> primitives;
-  std::size_t morphs = 0;                 ///< targets of every primitive
-  std::vector<std::size_t> joint_counts;  ///< for each primitive, one more than the largest joint that pulls
+  std::size_t morphs = 0;                 ///< number of targets of every primitive
+  std::vector<std::size_t> joint_counts;  ///< for each primitive, one more than the largest joint used
 };
 
 [[nodiscard]] std::vector<FileMesh> read_meshes(const Fields& root, Accessors& accessors);

@@ -11,7 +11,7 @@
 
 namespace tweenfall::gltf {
 
-/// A node as the file has it; indices are the file's.
+/// A node of the file; indices are those of the file.
 struct FileNode {
   Node node;  ///< named uniquely; its parent is an index of the file
   std::optional<std::size_t> mesh, skin;
@@ -22,7 +22,7 @@ struct FileNode {
 /// All nodes, in the file's order; cycles and second parents are problems.
 [[nodiscard]] std::vector<FileNode> read_nodes(const Fields& root);
 
-/// The indices of all nodes in an order with parents first; the file's own order where it is one.
+/// The indices of all nodes in an order with parents first; the file's own order if it is such.
 /// Precondition: no cycles.
 [[nodiscard]] std::vector<std::size_t> parents_first(const std::vector<FileNode>& nodes);
 

@@ -15,7 +15,7 @@ namespace tweenfall::gltf {
 
 namespace {
 
-/// Puts together what the file's parts hold, once all of them are known to be sound.
+/// Assembles the model from the file's parts, once all of them are known to be valid.
 class Assembly {
  public:
   Assembly(std::vector<FileNode> nodes, std::vector<FileMesh> meshes, std::vector<Skin> skins,
@@ -80,7 +80,7 @@ class Assembly {
     }
   }
 
-  /// A node's own weights stand above its mesh's, which other nodes may share.
+  /// A node's own weights override those of its mesh, which other nodes may share.
   std::size_t copy_with_weights(std::size_t mesh, const std::vector<double>& weights, Model& model) {
     const auto known = copies_.find({mesh, weights});
     if (known != copies_.end()) return known->second;
@@ -133,7 +133,7 @@ std::vector<char> moved_by(const std::vector<Clip>& clips, const std::vector<Fil
 
 Model read(std::string_view bytes, const std::filesystem::path& file, models::ModelProblems& problems) {
   const Container container = open_container(bytes, file, problems);
-  // In a broken shell everything would be reported as a fault of its own.
+  // In a broken container every part would be reported as a fault of its own.
   const auto where = [&](const std::string& place) { return place_in(container, place); };
   problems.throw_if_any(file, where);
   const Fields root(container.document.root(), "", problems);

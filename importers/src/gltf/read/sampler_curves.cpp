@@ -13,7 +13,7 @@ Quat quaternion(const double* parts) {
   return Quat(parts[3], parts[0], parts[1], parts[2]);
 }
 
-/// Values that hold until the next key. The last one is in force from its own time on, where a curve ends.
+/// Values that hold until the next key. The last one applies at its own time, where the curve ends.
 template <class T>
 Curve<T> step_curve(const std::vector<double>& times, const std::vector<T>& values) {
   if (times.size() == 1) return Curve<T>(values[0]);

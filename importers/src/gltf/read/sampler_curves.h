@@ -10,8 +10,8 @@ namespace tweenfall::gltf {
 
 enum class Interpolation { step, linear, cubic };
 
-/// A sampler's keys, already checked: times strictly increase; the outputs hold for each key `width` numbers, or in
-/// cubic three times as many: in-tangents, values, out-tangents.
+/// A sampler's keys, already checked: times strictly increase; the outputs have `width` numbers for each key or, if
+/// cubic, three times as many: in-tangents, values, out-tangents.
 struct Sampler {
   Interpolation interpolation = Interpolation::linear;
   std::vector<double> times;  ///< s

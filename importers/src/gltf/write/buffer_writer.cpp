@@ -19,7 +19,7 @@ std::size_t parts_of(const std::string& type) {
 
 template <class Number>
 std::size_t BufferWriter::add(const std::vector<Number>& numbers, int component, const std::string& type, int target) {
-  // Vertex attributes start on four bytes, which serves every component type.
+  // Vertex attributes are aligned to four bytes, which suits every component type.
   bytes_.resize((bytes_.size() + 3) / 4 * 4);
   const std::size_t offset = bytes_.size(), length = numbers.size() * sizeof(Number);
   bytes_.resize(offset + length);

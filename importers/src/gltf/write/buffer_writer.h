@@ -1,6 +1,6 @@
 #pragma once
 
-// The binary half of a glTF file as it grows: accessors over one buffer.
+// The binary part of a glTF file while it is written: accessors over one buffer.
 
 #include "gltf/format.h"
 
@@ -17,7 +17,7 @@ struct BufferView {
   int target = 0;                      ///< a `BufferTarget`, or 0 for none
 };
 
-/// The whole of the view with its own index, as elements.
+/// The whole buffer view of the same index, as elements.
 struct Accessor {
   int component = 0;  ///< a `ComponentType`
   std::size_t count = 0;
@@ -36,10 +36,10 @@ class BufferWriter {
   std::size_t add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertex_count);
   std::size_t add_joints(const std::vector<std::uint32_t>& joints, std::size_t joint_count);
 
-  /// As `add_floats` of strictly increasing times with bounds; equal lists share one accessor.
+  /// As `add_floats` with bounds, for strictly increasing times; equal lists share one accessor.
   std::size_t add_times(const std::vector<double>& times);
 
-  /// Fills up to a multiple of four bytes, as a chunk of a binary file needs it; the last call.
+  /// Pads to a multiple of four bytes, as required for a chunk of a binary file; the last call.
   void finish();
 
   [[nodiscard]] const std::vector<unsigned char>& bytes() const { return bytes_; }

@@ -41,8 +41,8 @@ std::vector<double> flat_tangents(const std::vector<Vec4>& tangents, std::size_t
   return all;
 }
 
-/// Joints and weights of one vertex as glTF wants them: no joint twice, weights that sum to 1 as floats; where they
-/// fill more than one set, the strongest come first.
+/// Joints and weights of one vertex as glTF requires: no joint twice, weights that sum to 1 as floats; if they fill
+/// more than one set, the strongest come first.
 std::vector<Influence> tidy(std::span<const Influence> influences, std::size_t joint_count) {
   std::vector<Influence> out;
   double sum = 0;
@@ -92,7 +92,7 @@ class MeshWriter {
  public:
   MeshWriter(const Model& model, BufferWriter& buffer) : model_(model), buffer_(buffer) {}
 
-  /// Meshes that one node can wear as one glTF mesh.
+  /// Meshes that one node can have as a single glTF mesh.
   struct Group {
     std::size_t skin;
     std::vector<std::size_t> meshes;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The meshes and materials of a model as glTF has them, and which nodes wear them.
+// The meshes and materials of a model in glTF's form, and the nodes that have them.
 
 #include "gltf/write/buffer_writer.h"
 
@@ -28,7 +28,7 @@ struct WrittenMesh {
   std::vector<std::string> target_names;
 };
 
-/// What a node wears: indices of a written mesh and of the model's skins.
+/// The mesh of a node: indices of a written mesh and of the model's skins.
 struct Worn {
   std::size_t mesh = 0;
   std::optional<std::size_t> skin;

@@ -18,7 +18,7 @@ struct Flat {
   std::vector<double> value, rate;
 };
 
-/// A curve, or several with the same knots, seen as flat numbers.
+/// A curve, or several with the same knots, as flat numbers.
 struct FlatCurve {
   Form form = Form::other;
   std::vector<double> knots;
@@ -65,8 +65,8 @@ Form form_of_spans(const Curve<T>& curve) {
   return most <= 3 ? Form::cubic : Form::other;
 }
 
-/// Only a constant turn of at most half a circle is what glTF calls linear, and only a cubic of the four parts is its
-/// CUBICSPLINE.
+/// glTF's LINEAR is only a constant turn of at most half a circle, and its CUBICSPLINE only a cubic of the four
+/// parts.
 Form form_of_spans(const Curve<Quat>& curve) {
   for (const RotationSpan& span : curve.spans())
     if (span.form == RotationSpan::Form::nested) return Form::other;
@@ -92,7 +92,7 @@ FlatCurve flat_curve(const Curve<T>& curve) {
   return result;
 }
 
-/// The polynomial's own four parts and their derivatives: what a CUBICSPLINE stores is not scaled to unit length.
+/// The polynomial's own four parts and their derivatives: a CUBICSPLINE stores them without scaling to unit length.
 Flat raw_parts(const RotationSpan& span, double s) {
   Vec4 value(0, 0, 0, 0), slope(0, 0, 0, 0);
   for (int i = span.degree; i >= 0; --i) {
@@ -152,7 +152,7 @@ FlatCurve flat_curve(const WeightCurves& curves) {
   return result;
 }
 
-/// The same curve with the node's rest value composed in, as `Track::relative` says; never in a form of glTF's own.
+/// The same curve composed with the node's rest value, for `Track::relative`; never in a form that glTF has.
 FlatCurve over_rest(FlatCurve curve, Property property, const Pose& rest) {
   curve.form = Form::other;
   curve.at = [inner = std::move(curve.at), property, rest](double time, Side side) {
@@ -170,7 +170,7 @@ FlatCurve over_rest(FlatCurve curve, Property property, const Pose& rest) {
   return curve;
 }
 
-/// Appends keys and keeps their times apart as 32-bit floats, in which glTF stores them.
+/// Appends keys and keeps their times distinct as 32-bit floats, in which glTF stores them.
 class KeyList {
  public:
   explicit KeyList(const FlatCurve& curve) : curve_(curve) { keys_.parts = curve.parts; }
@@ -196,7 +196,7 @@ class KeyList {
   void append(const std::vector<double>& numbers) {
     keys_.outputs.insert(keys_.outputs.end(), numbers.begin(), numbers.end());
   }
-  /// A quaternion and its opposite are one rotation, but other programs mix what they are given.
+  /// A quaternion and its opposite are the same rotation, but other programs interpolate the numbers as given.
   void align(std::vector<double>& parts) {
     double square = 0, toward_last = last_.empty() ? 1 : 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -220,7 +220,7 @@ SamplerKeys own_keys(const FlatCurve& curve, double duration) {
   for (const double knot : curve.knots) {
     Flat in = curve.at(knot, Side::in), out = curve.at(knot, Side::out);
     if (knot == curve.knots.front()) in.rate.assign(in.rate.size(), 0);
-    // The tangent that leaves the last key is read only where the curve is held on to the clip's end.
+    // The tangent leaving the last key is only used where the curve holds until the clip's end.
     if (knot == last) out.rate.assign(out.rate.size(), 0);
     const Flat value = knot == last && list.cubic ? in : out;
     list.add(knot, in, value, out);
@@ -249,7 +249,7 @@ SamplerKeys baked_keys(const FlatCurve& curve, double duration, double fps) {
   KeyList list(curve);
   for (const double time : times) {
     const Flat in = curve.at(time, Side::in), out = curve.at(time, Side::out);
-    // Linear keys can jump only between two times: the last float before the jump still holds what arrives.
+    // Linear keys can only jump between two times: the last float before the jump has the arriving value.
     if (time > 0 && !same(in.value, out.value))
       list.add(static_cast<double>(std::nextafter(static_cast<float>(time), 0.0f)), in);
     list.add(time, time < duration ? out : in);

@@ -18,8 +18,8 @@ struct SamplerKeys {
   std::size_t parts = 3;
 };
 
-/// The keys of a track of `clip` on a node: the curve's own where glTF has its form, else linear ones, `fps` a second
-/// and wherever the curve bends or jumps. Empty `times` for a track that glTF cannot hold.
+/// The keys of a track of `clip` on a node: the curve's own where glTF has its form, else linear ones, `fps` per second
+/// and wherever the curve kinks or jumps. Empty `times` for a track that glTF cannot hold.
 /// @throws std::runtime_error for a clip without end or with more than ten million keys.
 [[nodiscard]] SamplerKeys sampler_keys(const Clip& clip, const Track& track, const Pose& rest, double fps);
 

@@ -152,7 +152,7 @@ const char* path_named(const std::string& property) {
   }
 }
 
-/// Morph targets of the meshes on a node; glTF wants exactly that many weights a key.
+/// Number of morph targets of the meshes on a node; glTF requires exactly that many weights per key.
 std::size_t morph_count(const Model& model, std::size_t node) {
   for (const MeshInstance& instance : model.instances)
     if (instance.node == node) return model.meshes[instance.mesh].morphs.size();
