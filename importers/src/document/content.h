@@ -1,6 +1,6 @@
 #pragma once
 
-// One document being read: what its parts share while they fill in the stage's description.
+// A document being read: the state shared by its parts while they fill in the stage's description.
 
 #include <tweenfall/importers/document.h>
 
@@ -17,22 +17,22 @@
 
 namespace tweenfall::document {
 
-// What an imported file brings, whatever its kind.
+// The content of an imported file of any kind.
 struct Brought {
   StageDescription stage;
   bool names_are_free = false;
   bool is_model = false;
 };
 
-// What all files of one reading share.
+// The state shared by all files of one reading.
 struct Reading {
   ReadOptions options;
-  std::vector<std::filesystem::path> open{};  // the files on the way here, the outermost first
-  // Each file is read once, however often it is imported; null where it has problems, which are told.
+  std::vector<std::filesystem::path> open{};  // the chain of importing files, the outermost first
+  // Each file is read once, however often it is imported; null where it has problems, which are reported.
   std::map<std::filesystem::path, std::shared_ptr<const Brought>> brought{};
 
   std::vector<std::string> groups{"default"};  // of bodies: the first has the lowest bit
-  std::uint64_t given_groups = 1;              // that some body belongs to; the default one always counts
+  std::uint64_t given_groups = 1;              // groups that some body belongs to; always includes the default one
 
   [[nodiscard]] bool is_outermost() const { return open.size() <= 1; }
 };
@@ -45,11 +45,11 @@ struct Building {
   StageDescription stage{};
   std::optional<double> fps{};
 
-  bool names_are_free = false;                              // neither nodes nor imports: tracks name what they like
+  bool names_are_free = false;                              // neither nodes nor imports: tracks may use any name
   std::map<std::string, std::size_t, std::less<>> nodes{};  // index of each node
   std::map<std::string, std::size_t, std::less<>> clips{};
-  std::set<std::string, std::less<>> imports{};         // their names here
-  std::set<std::string, std::less<>> failed_imports{};  // their nodes and clips are not known to be missing
+  std::set<std::string, std::less<>> imports{};         // names of imports
+  std::set<std::string, std::less<>> failed_imports{};  // names of imports with unknown nodes and clips
   std::vector<ExpressionSystem> systems{};
   std::vector<json::Value> asked_groups{};     // names of groups that bodies collide with
   std::vector<std::string> clips_of_others{};  // clips of imports without nodes: their tracks name nodes of this file
@@ -57,7 +57,7 @@ struct Building {
   [[nodiscard]] std::vector<std::string> node_names() const;
   [[nodiscard]] std::vector<std::string> body_names() const;
   [[nodiscard]] std::vector<std::string> clip_names() const;
-  // Whether a name that is not there may be in an import that failed.
+  // Whether a missing name may belong to an import that failed.
   [[nodiscard]] bool excused(std::string_view name) const;
   // The same of a name without that import's: "; ..." with how it would be called, or nothing.
   [[nodiscard]] std::string said_of_failed_import(std::string_view name) const;
@@ -65,7 +65,7 @@ struct Building {
   [[nodiscard]] std::vector<std::size_t> nodes_named(std::string_view name_or_pattern) const;
 };
 
-// A document's tree and what it means.
+// A document's tree and its meaning.
 struct ReadDocument {
   std::string name;  // in problems
   json::Tree tree;
@@ -86,6 +86,6 @@ void read_nodes(Building& building);
 void read_clips(Building& building);
 void read_plays(Building& building);
 void read_rules(Building& building);
-void judge(Building& building);  // when no part has a fault
+void judge(Building& building);  // only if no part has a fault
 
 }  // namespace tweenfall::document

@@ -25,7 +25,7 @@ Document Document::read(const std::filesystem::path& file, const ReadOptions& op
 Document Document::parse(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                          const ReadOptions& options) {
   document::Reading reading{.options = options};
-  // So that a file cannot import itself, also when its text was read by the caller.
+  // So that a file cannot import itself, even when its text was read by the caller.
   std::error_code fault;
   const std::filesystem::path own =
       std::filesystem::weakly_canonical(folder / std::filesystem::path(name).filename(), fault);

@@ -1,7 +1,7 @@
 #pragma once
 
-// What JSON a place of a document may hold. One table of forms (grammar.h) drives the reader's checks, its "did you
-// mean", the writer's layout and defaults, and the JSON Schema, so that the four cannot disagree.
+// The JSON values that a place of a document may hold. One table of forms (grammar.h) drives the reader's checks, its
+// "did you mean", the writer's layout and defaults, and the JSON Schema, so that the four cannot disagree.
 
 #include "json/json_tree.h"
 
@@ -20,19 +20,19 @@ struct Field {
   const Form* form = nullptr;
   std::string help{};
   bool required = false;
-  std::string standard{};                // JSON text of what its absence means; a member that says this is not written
-  std::vector<std::string> elsewhere{};  // what others call it, in small letters
+  std::string standard{};                // JSON text of the default; a member with this value is not written
+  std::vector<std::string> elsewhere{};  // names in other programs, in lower case
 };
 
-// A rule about members standing together.
+// A rule about combinations of members.
 struct Together {
   enum class Rule { exactly_one, at_most_one, first_needs_second };
   Rule rule;
   std::vector<std::string> names;
-  std::string otherwise{};  // after "give one of them": what else could be meant
+  std::string otherwise{};  // text after "give one of them": an alternative
 };
 
-// Forms of members whose names are the author's, by the names' ending.
+// Forms of members with names chosen by the author, by the ending of the name.
 struct Ending {
   std::string ending;
   const Form* form = nullptr;
@@ -45,24 +45,24 @@ struct Form {
 
   Kind kind = Kind::any;
   std::string what{};        // "a mass in kg, above 0": completes "expected ..."
-  std::string definition{};  // its name in the schema; empty: written out where it is used
+  std::string definition{};  // its name in the schema; empty: written in full where it is used
 
   // number
   double low = -infinite, high = infinite;
-  bool above_low = false;  // low itself is out
+  bool above_low = false;  // low itself is excluded
   bool whole = false;
 
   // boolean
   bool only_true = false;
 
-  // What to write in place of a value of another kind, "; say ...", or nothing
+  // What to write instead of a value of another kind, "; say ...", or empty
   std::function<std::string(const json::Value&)> instead{};
 
   // text: one of `words`, or anything of `pattern` (ECMA 262); no limit when both are empty
   std::vector<std::string> words{};
   std::string pattern{};
-  std::function<bool(std::string_view)> fits{};        // what the pattern says
-  std::function<std::string(std::string_view)> why{};  // why a text does not fit, where more can be said; or nothing
+  std::function<bool(std::string_view)> fits{};        // the same as the pattern
+  std::function<std::string(std::string_view)> why{};  // explains why a text does not fit; may be empty
   std::vector<std::string> hints{};                    // words to suggest beside `words`
 
   // list
@@ -76,13 +76,15 @@ struct Form {
   std::vector<Field> fields{};
   std::vector<Together> together{};
   std::vector<Ending> endings{};                              // names of the author's
-  const Form* others = nullptr;                               // all other names of the author's; null: there are none
-  std::string name_pattern{};                                 // what names of the author's must match
-  std::function<std::string(std::string_view)> name_fault{};  // what is wrong with such a name, or nothing
-  // The name with a form of its own that a name of the author's may stand for, or nothing
+  const Form* others = nullptr;                               // all other author's names; null: none are allowed
+  std::string name_pattern{};                                 // pattern for author's names
+  std::function<std::string(std::string_view)> name_fault{};  // what is wrong with such a name, or empty
+  // The known name that an author's name may be meant for, or empty
   std::function<std::string(std::string_view)> name_meant{};
-  std::function<std::string(std::string_view)> said_of{};           // "; ..." of a name that is no field, or nothing
-  std::function<std::string(const json::Value&)> foremost_fault{};  // a fault that makes all others noise, or nothing
+  std::function<std::string(std::string_view)> said_of{};           // "; ..." about a name that is not a field, or
+                                                                    // empty
+  std::function<std::string(const json::Value&)> foremost_fault{};  // a fault that makes all others irrelevant, or
+                                                                    // empty
 
   // choice: the first alternative of the value's kind, or the one that `select` names
   std::vector<const Form*> alternatives{};
@@ -95,23 +97,23 @@ struct Form {
   [[nodiscard]] const Field* field(std::string_view name) const;
   [[nodiscard]] const Form* member(std::string_view name) const;  // form of a member's value; null: no such name
   [[nodiscard]] std::vector<std::string> field_names() const;
-  // The field that others call by this name, or nothing.
+  // The field that has this name in other programs, or empty.
   [[nodiscard]] std::string field_called(std::string_view name) const;
-  // The field that a name which is none stands for: what others call it, or the nearest; or nothing.
+  // The field meant by an unknown name: the one with this name in other programs, or the nearest; or empty.
   [[nodiscard]] std::string field_meant(std::string_view name) const;
 };
 
-// Names that start with "//" or "x-" are the author's own and never looked at.
+// Names that start with "//" or "x-" are the author's own and ignored.
 [[nodiscard]] bool is_free_name(std::string_view name);
 
-// The alternative that holds for a value (through choices in choices); null when the value's kind fits none.
+// The alternative that applies to a value (through nested choices); null when the value's kind fits none.
 [[nodiscard]] const Form* resolved(const Form& form, const json::Value& value);
 
 // Forms live as long as the store.
 class FormStore {
  public:
   const Form* add(Form form);
-  Form* reserve();  // for forms that must be known before they are made
+  Form* reserve();  // for forms that are referred to before they are made
 
  private:
   std::deque<Form> forms_;

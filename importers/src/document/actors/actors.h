@@ -1,6 +1,6 @@
 #pragma once
 
-// What acts in a document's world beside its bodies, by name: vehicles, and particles.
+// The actors of a document's world other than bodies, by name: vehicles and particles.
 
 #include "document/fields/table.h"
 
@@ -8,8 +8,8 @@
 
 namespace tweenfall::document::actors {
 
-// Reads things of one kind by name: each begins with what `begin` makes of its name, and comes to `take` with whether
-// it has been read without a fault.
+// Reads things of one kind by name: `begin` makes each from its name, and `take` gets it, with a flag that tells
+// whether it was read without a fault.
 template <class Thing, class Begin, class Take>
 void read_by_name(const json::Value& value, const fields::Table<Thing>& table, Building& building, const Begin& begin,
                   const Take& take) {
@@ -22,7 +22,7 @@ void read_by_name(const json::Value& value, const fields::Table<Thing>& table, B
   }
 }
 
-// The same of what is only of use without a fault, each in its place of a list.
+// The same for things that are only usable without a fault; appends them to a list.
 template <class Thing, class Begin>
 void read_by_name(const json::Value& value, const fields::Table<Thing>& table, Building& building,
                   std::vector<Thing>& out, const Begin& begin) {

@@ -115,7 +115,7 @@ const Form* vehicles_form(FormStore& store, const ValueForms& values) {
 
 void read_vehicles(const json::Value& value, Building& building) {
   const auto begin = [](std::string name) { return VehicleDescription{.name = std::move(name)}; };
-  // Without a chassis, which is told, there is nothing to add.
+  // Without a chassis, which is reported, there is nothing to add.
   const auto take = [&](VehicleDescription vehicle, bool whole) {
     if (whole && vehicle.chassis != no_node) building.stage.vehicles.push_back(std::move(vehicle));
   };

@@ -56,7 +56,7 @@ const Table<Body>& body_table() {
   constexpr auto spin = [](Body& body) -> Vec3& { return body.twist.angular; };
   const Meaning<Body> shape = {
       [](const json::Value& value, Body& body, Building& building) { body.shape = shapes::read(value, building); }};
-  // What is fitted to a mesh lies where that is, and is moved from there.
+  // A shape fitted to a mesh has the place of the mesh, and is moved relative to that.
   const Meaning<Body> offset = {[](const json::Value& value, Body& body, Building& building) {
                                   Pose place;
                                   offset_table().read(value, place, building);
@@ -182,7 +182,7 @@ std::uint64_t read_collides_with(const json::Value& groups, Building& building) 
 }
 
 void check_groups(Building& building) {
-  // What an imported file asks for may be in the file that imports it.
+  // A group named by an imported file may be defined in the file that imports it.
   if (!building.reading.is_outermost() || !building.failed_imports.empty()) return;
   const std::vector<std::string>& groups = building.reading.groups;
   std::vector<std::string> given;

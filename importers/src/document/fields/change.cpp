@@ -11,7 +11,7 @@ namespace tweenfall::document::fields {
 
 namespace {
 
-// Where a body that is taken back goes on
+// The path of a body that is taken back
 
 void read_followed_clip(const json::Value& value, HandBack& out, Building& building) {
   take(value, out.clip, building);
@@ -56,14 +56,14 @@ const Table<Settle>& settle_table() {
   return table;
 }
 
-// Why a field means nothing for a change to an owner, if it names one.
+// Why a field has no effect for a change to an owner, if it names one.
 auto useless_to(Owner owner, const std::string& why) {
   return [owner, why](const ChangeBeingRead& read) {
     return read.to && read.change.to.owner() == owner ? why : std::string();
   };
 }
 
-// How long a change holds, and what comes then
+// How long a change holds, and what follows it
 std::vector<Row<ChangeBeingRead>> next_rows(const FormOf& next) {
   const auto lasts = [](const json::Value& value, ChangeBeingRead& read, Building&) { read.lasts = value.number(); };
   return {{"for", &ValueForms::positive, "seconds until \"then\"", {lasts}, false, {}, {"hold"}},

@@ -1,6 +1,6 @@
 #pragma once
 
-// A change of who moves a body, alone or with what comes after it.
+// A change of a body's owner, alone or with the change after it.
 
 #include "document/fields/table.h"
 
@@ -12,29 +12,29 @@ namespace tweenfall::document::fields {
 
 struct ChangeBeingRead {
   OwnerChange change;
-  json::Value to;                     // where it names an owner; none where that is faulty
+  json::Value to;                     // the value that names an owner; none where that is faulty
   bool follows = false;               // whether it names the clip to follow
-  std::optional<double> lasts;        // until what comes then, s
+  std::optional<double> lasts;        // time until the change in `then`, s
   std::vector<ChangeBeingRead> then;  // none or one
 };
 
 [[nodiscard]] std::vector<Row<ChangeBeingRead>> change_rows();
-// The same with what comes after it. @param next  the form of that
+// The same with the change after it. @param next the form of that
 [[nodiscard]] std::vector<Row<ChangeBeingRead>> change_rows(const FormOf& next);
-[[nodiscard]] std::vector<Together> lasting();  // of the fields that say so
+[[nodiscard]] std::vector<Together> lasting();  // rules about the fields for that
 const Form* next_change_form(FormStore& store, const ValueForms& values);
 void read_next_change(const json::Value& value, ChangeBeingRead& before, Building& building);
 
 [[nodiscard]] json::Value place_of_owner(const json::Value& change);
 [[nodiscard]] json::Value place_of_next(const json::Value& change);
 
-// Where a body that is taken back goes on, and how the difference dies away
+// The path of a body that is taken back, and how the difference decays
 const Form* path_form(FormStore& store, const ValueForms& values);
 void read_path(const json::Value& value, HandBack& out, Building& building);
 const Form* settle_form(FormStore& store, const ValueForms& values);
 void read_settle(const json::Value& value, Settle& settle, Building& building);
 
-// What becomes of overlap. @param access  gives the thing's take-over
+// How overlap is handled. @param access gives the thing's take-over
 template <class Thing, class Access>
 [[nodiscard]] Row<Thing> overlap_row(Access access) {
   using Overlap = TakeOver::Overlap;

@@ -41,7 +41,7 @@ const Form* owner_form(FormStore& store, const ValueForms& values) {
 
 Drive read_owner(const json::Value& owner, Building& building) {
   if (owner.is(json::Value::Kind::text)) return owner.text() == "keyed" ? Drive::keyed() : Drive::free();
-  // A drive remains one where its frequency is faulty.
+  // It remains a drive even if its frequency is faulty.
   Drive drive{.hz = 1};
   drive_table().read(owner, drive, building);
   return drive;

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = json::Value::Kind;
 
-/// Mass properties as they are written: moments and products of inertia apart.
+/// Mass properties as written: moments and products of inertia are separate.
 struct Given {
   double mass = 0;
   Vec3 center{0, 0, 0}, moments{0, 0, 0}, products{0, 0, 0};
@@ -33,7 +33,7 @@ const Table<Given>& given_table() {
   return table;
 }
 
-/// Bodies are many: what is still rough after so much is told.
+/// There may be many bodies, so evaluations are limited; results that are still rough then are reported.
 constexpr Quadrature of_documents{.tolerance = 1e-6, .most_evaluations = 50000};
 constexpr double noted = 1e-3;
 
@@ -49,7 +49,7 @@ void read_mass_properties(const json::Value& value, BodyDescription& body, Build
   MassProperties properties{given.mass, given.center, given.moments.asDiagonal()};
   for (int i = 0; i < 3; ++i)
     properties.inertia(i, (i + 1) % 3) = properties.inertia((i + 1) % 3, i) = given.products[i];
-  if (!usable(value, "mass") || !usable(value, "inertia")) return;  // was told
+  if (!usable(value, "mass") || !usable(value, "inertia")) return;  // was reported
   try {
     validate(properties);
     body.mass_properties = properties;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t no_clip = static_cast<std::size_t>(-1);
 
-/// A number, keys in the play's own time, or keys that say which clock they run on.
+/// A number, keys in the play's own time, or keys that state their clock.
 const Form* timed_form(FormStore& store, const ValueForms& values, const std::string& what, const Form* number) {
   const Form* keys = weight_keys_form(store, values);
   Form told = object_of(what + " with its clock: {\"clock\", \"keys\"}",
@@ -64,7 +64,7 @@ void read_play_clip(const json::Value& value, Play& play, Building& building) {
   const auto found = building.clips.find(value.text());
   play.clip = found == building.clips.end() ? no_clip : found->second;
   if (play.clip != no_clip || building.excused(value.text())) return;
-  // A clip with faults of its own is there all the same.
+  // A clip that has faults of its own still exists.
   const json::Value clips = usable(building.root, "clips");
   if (clips && usable(clips, value.text())) return;
   std::string meant = suggestion_or_import(value.text(), building.clip_names());
@@ -72,7 +72,7 @@ void read_play_clip(const json::Value& value, Play& play, Building& building) {
   building.problems.add(value, "there is no clip " + json::in_quotes(value.text()) + meant);
 }
 
-/// The curve of keys; those on the stage's clock are told on the play's.
+/// The curve of keys; keys on the stage's clock are converted to the play's.
 std::optional<Curve<double>> read_timed(const json::Value& value, const Play& play, const Form& number,
                                         Building& building) {
   const json::Value keys = value.is(json::Value::Kind::list) ? value : usable(value, "keys");
@@ -91,7 +91,7 @@ void read_play_weight(const json::Value& value, Play& play, Building& building) 
   if (const auto curve = read_timed(value, play, weight_form(), building)) play.weight = *curve;
 }
 
-/// Seconds of a time of the played clip.
+/// A time of the played clip in seconds.
 std::optional<double> read_clip_time(const json::Value& value, const Play& play, Building& building) {
   std::optional<double> duration;
   if (play.clip < building.stage.clips.size() && std::isfinite(building.stage.clips[play.clip].duration))
@@ -117,14 +117,14 @@ void read_play_loop(const json::Value& value, Play& play, Building&) {
 
 void read_play_count(const json::Value& value, Play& play, Building& building) {
   std::optional<Loop> loop = own_loop(play, building);
-  // What is counted is played again, also where the clip by itself is not; and the play's count stands over the clip's.
+  // A play with a count repeats, even if the clip does not; and the play's count overrides the clip's.
   if (!play.loop && loop->mode == LoopMode::once) loop->mode = LoopMode::repeat;
   if (!play.loop) loop->count = 0;
   read_count_beside(value, loop, building.problems);
   play.loop = loop;
 }
 
-/// What is wrong with a play as a whole, told where it is said.
+/// Checks a play as a whole; faults are reported at its place.
 void check_play(const json::Value& value, const Play& play, Building& building) {
   if (play.clip >= building.stage.clips.size()) return;
   const Clip& clip = building.stage.clips[play.clip];

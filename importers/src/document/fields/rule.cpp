@@ -12,14 +12,14 @@ namespace {
 using Kind = json::Value::Kind;
 using Read = RuleBeingRead;
 
-// Whom it is about
+// The bodies of a rule
 
 const Form* rule_bodies_form(FormStore& store, const ValueForms& values) {
   return store.add(choice_of("a node's name, a pattern (\"tower/*\"), or a list of them",
                              {values.name, store.add(list_of(values.name, "a list of names or patterns"))}));
 }
 
-// What a name of several nodes takes is only what can move.
+// A name of several nodes selects only those that can move.
 void note_left_out(const json::Value& name, const std::vector<std::string>& left_out, Building& building) {
   if (left_out.empty()) return;
   building.problems.note(name, json::in_quotes(name.text()) + " leaves out " + listed(left_out) +

@@ -1,6 +1,6 @@
 #pragma once
 
-// A rule of the hand-off: when a body changes owner, to whom, and how.
+// A hand-off rule: when a body changes owner, to whom, and how.
 
 #include "document/fields/change.h"
 
@@ -9,7 +9,7 @@
 
 namespace tweenfall::document::fields {
 
-// A time at which a rule acts, and where it says so.
+// A time at which a rule acts, and its place in the document.
 struct RuleInstant {
   json::Value place;
   double seconds = 0;

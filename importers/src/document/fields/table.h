@@ -1,7 +1,7 @@
 #pragma once
 
-// Fields of the things that a document describes, one row for each. From a row follow what the field may hold (and with
-// it the checks and the schema), how it is read, and what its absence means (which is not written).
+// Fields of the things that a document describes, one row for each. A row defines what the field may hold (and with it
+// the checks and the schema), how it is read, and its default (which is not written).
 
 #include <tweenfall/curves/color.h>
 #include <tweenfall/curves/pose.h>
@@ -19,7 +19,7 @@
 
 namespace tweenfall::document::fields {
 
-// What a field may hold: a form that many fields share, one of its own, or one that is made of others.
+// What a field may hold: a shared form, one of its own, or one made from others.
 class FormOf {
  public:
   using Make = std::function<const Form*(FormStore&, const ValueForms&)>;
@@ -36,14 +36,14 @@ class FormOf {
   Make make_;
 };
 
-// What a field does to the thing it belongs to.
+// The effect of a field on its thing.
 template <class Thing>
 struct Meaning {
   std::function<void(const json::Value&, Thing&, Building&)> read;
-  std::string standard{};  // JSON text of what its absence means; empty: something that no text says
+  std::string standard{};  // JSON text of the default; empty if there is none in JSON
 };
 
-// Values as members hold them. What was reported already leaves the member as it is.
+// Copies a value to a member; a value that was reported already leaves the member unchanged.
 void take(const json::Value& value, double& out, Building& building);
 void take(const json::Value& value, int& out, Building& building);
 void take(const json::Value& value, bool& out, Building& building);
@@ -53,7 +53,7 @@ void take(const json::Value& value, std::optional<Color>& out, Building& buildin
 void take(const json::Value& value, Vec3& out, Building& building);
 void take(const json::Value& value, Quat& out, Building& building);
 
-// The JSON text of a member's default, or nothing where none says it.
+// The JSON text of a member's default; empty if there is none.
 [[nodiscard]] std::string text_of_default(double value);
 [[nodiscard]] std::string text_of_default(bool value);
 [[nodiscard]] std::string text_of_default(const Vec3& value);
@@ -93,9 +93,9 @@ struct Row {
   std::string help;
   Meaning<Thing> meaning;
   bool required = false;
-  // Why it means nothing for a thing such as this one, to follow "means nothing"; or nothing where it means something.
+  // Why the field has no effect for this thing, to follow "means nothing"; empty if it has an effect.
   std::function<std::string(const Thing&)> useless{};
-  std::vector<std::string> elsewhere{};  // what others call it, in small letters
+  std::vector<std::string> elsewhere{};  // names in other programs, in lower case
 };
 
 template <class Thing>
@@ -112,7 +112,7 @@ class Table {
                         row.required ? std::string() : row.meaning.standard, row.elsewhere});
     return object_of(what_, std::move(fields));
   }
-  // The same, whose message lists them.
+  // The same, with a message that lists the fields.
   [[nodiscard]] Form listing_form(FormStore& store, const ValueForms& values) const {
     Form out = form(store, values);
     out.what += ": {";
@@ -120,7 +120,7 @@ class Table {
     out.what += "}";
     return out;
   }
-  // The form of an object with one of these fields.
+  // The form of an object with exactly one of these fields.
   [[nodiscard]] Form choosing_form(FormStore& store, const ValueForms& values) const {
     Form out = form(store, values);
     out.what += ": one of ";
@@ -139,7 +139,7 @@ class Table {
     return out;
   }
 
-  // Fills in what the object says, row by row, then tells which of its fields mean nothing beside the others.
+  // Reads the object's fields, row by row, then reports fields that have no effect beside the others.
   void read(const json::Value& object, Thing& thing, Building& building) const {
     for (const Row<Thing>& row : rows_)
       if (const json::Value value = usable(object, row.name)) row.meaning.read(value, thing, building);
@@ -156,7 +156,7 @@ class Table {
   std::vector<Row<Thing>> rows_;
 };
 
-// The rows of a part, for the thing that holds it. @param access  gives the thing's part
+// The rows of a part, for the thing that contains it. @param access gives the thing's part
 template <class Thing, class Part, class Access>
 [[nodiscard]] std::vector<Row<Thing>> rows_of_part(const std::vector<Row<Part>>& rows, Access access) {
   std::vector<Row<Thing>> out;
@@ -197,7 +197,7 @@ template <class Part>
       [&table](FormStore& store, const ValueForms& values) { return store.add(table.listing_form(store, values)); });
 }
 
-// A field that is an object with a table of its own; absent, it is as if empty.
+// A field that is an object with a table of its own; if absent, it counts as empty.
 template <class Thing, class Part, class Access>
 [[nodiscard]] Row<Thing> part(std::string name, const Table<Part>& table, std::string help, Access access) {
   const auto read = [&table, access](const json::Value& value, Thing& thing, Building& building) {

@@ -34,7 +34,7 @@ std::string known_event(const json::Value& name, const RuleBeingRead& rule, Buil
   return std::string(name.text());
 }
 
-// What a value that is no object may be meant for.
+// What a value that is not an object may be meant for.
 std::string trigger_instead_of(const json::Value& value) {
   if (value.is(json::Value::Kind::number)) return "; say {\"at\": " + json::on_one_line(value) + "}";
   if (value.is(json::Value::Kind::list))
@@ -54,7 +54,7 @@ Form only_yes() {
   return yes;
 }
 
-// A kind of trigger, which is added to those that are there.
+// A kind of trigger, which is added to those read before.
 template <class Read>
 Meaning<RuleBeingRead> adds(Read read) {
   return {[read](const json::Value& value, RuleBeingRead& rule, Building& building) {
@@ -70,7 +70,7 @@ void read_instant(const json::Value& value, RuleBeingRead& rule, Building& build
   rule.instants.push_back({value, *seconds});
 }
 
-// A name or pattern of nodes, of which one must be as `fits` says.
+// A name or pattern of nodes, at least one of which must satisfy `fits`.
 template <class Thing, class Fits>
 Meaning<Thing> name_of_nodes(std::string Thing::*member_of, const std::string& lacks, Fits fits) {
   Meaning<Thing> meaning = member<Thing>(member_of);

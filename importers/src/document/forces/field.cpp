@@ -42,7 +42,7 @@ const Form* parameters_form(FormStore& store, const ValueForms& values) {
   return store.add(map_of(values.number, "an object of numbers by name"));
 }
 
-// Reads a formula; what is wrong with it is told where it stands.
+// Reads a formula; faults are reported at its place.
 template <class Make>
 void attempt(const json::Value& at, Building& building, const Make& make) {
   try {

@@ -1,6 +1,6 @@
 #pragma once
 
-// A force of a document: what its kind says, on whom it acts, and how strongly.
+// A force of a document: its kind, the bodies on which it acts, and its strength.
 
 #include "document/fields/table.h"
 

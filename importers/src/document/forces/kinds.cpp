@@ -39,7 +39,7 @@ fields::Meaning<Described> node(std::size_t Described::*part) {
   }};
 }
 
-// Who is at the other end, if anybody
+// The body at the other end, if any
 fields::Meaning<Described> other_end(std::string what) {
   return {[what = std::move(what)](const json::Value& value, Described& described, Building& building) {
     described.b = fields::body_called(value, building);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Functions that stand in place of keys.
+// Functions in place of keys.
 
 #include "document/grammar/grammar_parts.h"
 
@@ -11,12 +11,12 @@ namespace tweenfall::document {
 
 // What a track may have instead of keys.
 struct TrackFunctions {
-  std::vector<Field> endless{};  // these have nothing outside
+  std::vector<Field> endless{};  // these have no "before" and "after"
   std::vector<Field> passing{};  // these begin at 0 s and end
   bool parameters = false;       // whether an expression is among them
 };
 
-// Splines through values of one kind, or drawn by them.
+// Splines through values of one kind, or with these as control points.
 [[nodiscard]] std::vector<Field> spline_fields(FormStore& store, const ValueForms& values, const Form* value,
                                                const std::string& kind);
 
@@ -27,9 +27,9 @@ class FunctionForms {
  public:
   FunctionForms(FormStore& store, const ValueForms& values);
 
-  // For numbers of a unit; angles can be a pendulum's.
+  // For numbers of a unit; angles can follow a pendulum.
   [[nodiscard]] TrackFunctions of_numbers(const std::string& unit, bool angles) const;
-  [[nodiscard]] TrackFunctions of_places(const std::string& unit) const;  // where something is: all of space
+  [[nodiscard]] TrackFunctions of_places(const std::string& unit) const;  // for positions: curves in space
   [[nodiscard]] TrackFunctions of_scales() const;
   [[nodiscard]] TrackFunctions of_vectors(std::size_t size) const;  // 2 or 4 numbers
   [[nodiscard]] const Form* parameters() const { return parameters_; }

@@ -5,7 +5,7 @@
 
 namespace tweenfall::document {
 
-// One modifier: an object with the kind's name, and where and how much it acts.
+// One modifier: an object with the name of its kind, and its range and influence.
 const Form* modifiers_form(FormStore& store, const ValueForms& values) {
   const Form* number = values.number;
   const Form* not_negative = values.not_negative;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The table in its parts: values first, then what is made of them.
+// The parts of the table: values first, then forms made from them.
 
 #include "document/form.h"
 
@@ -25,16 +25,16 @@ const Form* tracks_form(FormStore& store, const ValueForms& values);
 const Form* clip_form(FormStore& store, const ValueForms& values);
 // Keys of numbers in stage time, for weights of plays.
 const Form* weight_keys_form(FormStore& store, const ValueForms& values);
-// What is laid over a track of numbers.
+// The modifiers of a track of numbers.
 const Form* modifiers_form(FormStore& store, const ValueForms& values);
 // Over numbers a list; over vectors one list for all components alike, or lists by component.
 [[nodiscard]] Field modifiers_field(FormStore& store, const Form* modifiers, std::size_t size);
 
-// Forms in the making
+// Helpers to make forms
 Form bounded(std::string what, double low, bool above_low, double high = Form::infinite, bool whole = false);
 Form object_of(std::string what, std::vector<Field> fields);
 Form list_of(const Form* element, std::string what, std::size_t fewest = 1, std::size_t most = Form::no_limit);
-// An object whose members, all of one form, have names of the author's.
+// An object whose members, all of one form, have names chosen by the author.
 Form map_of(const Form* element, std::string what);
 Form words_of(std::string what, std::vector<std::string> words);
 Form choice_of(std::string what, std::vector<const Form*> alternatives);

@@ -4,7 +4,7 @@ namespace tweenfall::document {
 
 namespace {
 
-// What a C2 spline, or one of a slope rule, is held to at an end.
+// The condition at an end of a C2 spline, or of one with a slope rule.
 const Form* end_form(FormStore& store, const Form* value) {
   Form held = object_of("an end: {\"rate\"} or {\"acceleration\"}, or \"not-a-knot\"",
                         {{"rate", value, "value per second"}, {"acceleration", value, "value per second squared"}});

@@ -13,7 +13,7 @@ namespace tweenfall::document {
 
 namespace {
 
-// The value of the first key of a track, wherever it is, or the first of a mix; null when there is none.
+// The value of the first key of a track, in any of its forms, or the first of a mix; null when there is none.
 json::Value first_key_value(const json::Value& track) {
   if (const json::Value mix = track.find("barycentric")) {
     const json::Value values = mix.find("values");
@@ -32,15 +32,15 @@ bool has_function(const json::Value& track) {
   return false;
 }
 
-// What the tracks of one kind of value look like, with its options.
+// The forms of tracks for one kind of value, with its options.
 struct TrackKind {
   std::string name;  // of its definitions
   const Form* value = nullptr;
-  const Form* rate = nullptr;  // null: the value switches, and has neither ease nor tangents
-  bool turns = false;          // a rotation: rates are angular velocities, and have no neighbors to look at
+  const Form* rate = nullptr;  // null: the value switches, without eases or tangents
+  bool turns = false;          // a rotation: rates are angular velocities; no tangents from neighboring keys
   std::vector<Field> options{};
   TrackFunctions functions{};
-  std::vector<Field> key_options{};  // of keys with names
+  std::vector<Field> key_options{};  // additional fields of keys written as objects
   bool mixes = true;                 // whether values can be mixed by weights
   std::vector<Field> made_of_numbers{};
 };
@@ -147,7 +147,7 @@ class TrackForms {
     return store_.add(std::move(form));
   }
 
-  // What goes on by rules of its own.
+  // Adds a source that has its own rules outside.
   static void add_alone(Form& form, const Field& source, std::vector<std::string>& sources) {
     form.fields.push_back(source);
     sources.push_back(source.name);
@@ -172,7 +172,7 @@ class TrackForms {
     return {"barycentric", store_.add(std::move(mix)), "a mix of values by weights that are tracks"};
   }
 
-  // A word, or an object for what needs a number.
+  // A word, or an object for rules that need a number.
   const Form* outside(const TrackKind& kind) {
     const Form* plays = store_.add(words_of("a way to repeat", {"repeat", "repeat-offset", "pingpong"}));
     Form full = object_of(
@@ -192,7 +192,7 @@ class TrackForms {
     return store_.add(std::move(form));
   }
 
-  // Keys alone, or an object: tracks of one kind only.
+  // Keys alone, or an object, for tracks of one kind only.
   const Form* either(const TrackKind& kind) {
     const Form* list = keys(kind);
     return store_.add(choice_of("a track: a list of keys, or an object with \"keys\"", {list, object(kind, list)}));
@@ -267,7 +267,7 @@ class TrackForms {
     return store_.add(std::move(form));
   }
 
-  // Names of the user's: the kind is said, else that of the first value.
+  // User tracks: the kind is stated, or else that of the first value.
   const Form* user() {
     const auto kind_field = [&](const std::string& kind, bool required) {
       return Field{"kind", store_.add(words_of("the kind " + json::in_quotes(kind), {kind})), "kind of value",
@@ -330,7 +330,7 @@ class TrackForms {
     add("text", text);
     add("said-text", said_text);
 
-    // Stands in where the kind's word is none.
+    // Used where the kind is not a valid word.
     Form any_track = object_of(
         "a track", {{"kind", store_.add(words_of("a kind of value", {"number", "vector", "color", "switch", "text"})),
                      "kind of value"},

@@ -39,8 +39,8 @@ Form named(Form form, std::string definition) {
   return form;
 }
 
-// Words as they are; calls by their name, with anything between the brackets: what stands there is Ease::named's to
-// judge, and it says why.
+// Words as they are; calls by their name, with anything between the brackets: Ease::named checks that, and says why it
+// is wrong.
 const Form* ease_form(FormStore& store) {
   Form form;
   form.kind = Form::Kind::text;
@@ -68,7 +68,7 @@ const Form* ease_form(FormStore& store) {
            Ease::named(text).has_value();
   };
   form.why = [calls, alone = form.words](std::string_view text) -> std::string {
-    // What other programs call it.
+    // Names in other programs.
     if (const std::string ours = Ease::ours(text); !ours.empty()) return "; did you mean \"" + ours + "\"?";
     const std::size_t bracket = text.find('(');
     if (bracket == std::string_view::npos) return {};
@@ -176,7 +176,7 @@ ValueForms::ValueForms(FormStore& store) {
                                                                               time->unit != TimeInWords::Unit::seconds);
                                                                     }))}),
                              "key-time"));
-  // A bare number in quotes is one way too many to say a time.
+  // A bare number in quotes is not accepted as a time.
   const auto frames = [](std::string_view text) {
     const auto time = time_in_words(text);
     return time && time->unit == TimeInWords::Unit::frames && !time->after_previous;

@@ -120,7 +120,7 @@ class SchemaMaker {
     Json properties = Json::object(), required = Json::array();
     for (const Field& field : form.fields) {
       Json schema = of(*field.form);
-      // What stands beside "$ref" is not read in draft-07.
+      // In draft-07 anything beside "$ref" is ignored.
       if (schema.contains("$ref") && !(field.help.empty() && field.standard.empty()))
         schema = one_member("allOf", Json::array({std::move(schema)}));
       if (!field.help.empty()) {

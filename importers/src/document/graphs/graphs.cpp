@@ -94,7 +94,7 @@ void read_inputs(const json::Value& value, GraphDescription& graph, Building& bu
   }
 }
 
-// What it does on events of clips
+// Reactions to events of clips
 
 const Form* reactions_form(FormStore& store, const ValueForms& values) {
   Form reaction;
@@ -148,7 +148,7 @@ const Table<GraphDescription>& graph_table() {
   return table;
 }
 
-// The value at a fault's place, or the last on the way that is there, and whether it is all the way.
+// The value at a fault's place, or the last existing one on the way, and whether the place was reached.
 std::pair<json::Value, bool> place_in(json::Value value, const std::vector<std::string>& place) {
   for (const std::string& part : place) {
     json::Value next = usable(value, part);
@@ -163,20 +163,20 @@ std::pair<json::Value, bool> place_in(json::Value value, const std::vector<std::
   return {value, true};
 }
 
-// Where a graph was told faults of before it is held against its clips and nodes: what they leave out is missing there,
-// too, and is no fault of its own.
+// The faults of a graph reported before it is checked against its clips and nodes: parts left out because of them are
+// missing then, which is not another fault.
 class Told {
  public:
   Told(const json::Value& graph, const Problems& problems) : graph_(graph), places_(problems.places()) {}
 
-  // Whether anything was.
+  // Whether there were any.
   [[nodiscard]] bool is_any() const { return holds_any(graph_); }
 
-  // Whether what is missed at a place may be so by a fault that was told.
+  // Whether something missing at a place may be a consequence of a reported fault.
   [[nodiscard]] bool leads_to(const GraphFault& fault) const {
     if (places_.empty()) return false;
     if (is_spoiled("parameters") || is_spoiled("poses")) return true;
-    // Of a pose by what else stands in it; elsewhere by any pose, as only a pose that was read is there to be named.
+    // In a pose, of any fault in that pose; elsewhere, of a fault in any pose, since only poses without faults exist.
     const bool in_pose = fault.place.size() > 1 && fault.place[0] == "poses";
     const json::Value poses = graph_.find("poses");
     return holds_any(in_pose ? poses.find(fault.place[1]) : poses);
@@ -202,7 +202,7 @@ Hierarchy hierarchy_of(const Building& building) {
   return Hierarchy(std::move(nodes));
 }
 
-// Tracks whose nodes are not there are told of where they stand.
+// Leaves out tracks whose nodes do not exist, which are reported at their own places.
 std::vector<Clip> clips_of_known_nodes(const Building& building) {
   std::vector<Clip> clips = building.stage.clips;
   for (Clip& clip : clips)
@@ -216,7 +216,7 @@ void tell_faults(const json::Value& value, const GraphDescription& graph, Buildi
   try {
     faults = inspect(graph, hierarchy_of(building), clips_of_known_nodes(building));
   } catch (const std::invalid_argument&) {
-    return;  // of the nodes, which are told of elsewhere
+    return;  // a fault of the nodes, which is reported elsewhere
   }
   const bool sound = building.problems.empty();
   const Told told(value, building.problems);
@@ -225,7 +225,7 @@ void tell_faults(const json::Value& value, const GraphDescription& graph, Buildi
       building.problems.add(place, std::move(fault.message));
 }
 
-// Only clips have events, so that what none has never happens.
+// Only clips have events, so an event that no clip has never happens.
 void tell_events_of_no_clip(const json::Value& value, Building& building) {
   if (!building.failed_imports.empty() || Told(usable(building.root, "clips"), building.problems).is_any()) return;
   std::vector<std::string> names;

@@ -8,7 +8,7 @@
 namespace tweenfall::document::graphs {
 
 const Form* form(FormStore& store, const ValueForms& values);
-// When nodes and clips are known.
+// Call when nodes and clips are known.
 void read(const json::Value& value, Building& building);
 
 }  // namespace tweenfall::document::graphs

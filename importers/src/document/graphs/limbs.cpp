@@ -62,7 +62,7 @@ const Form* joints_form(const Table<Joint>& table, const char* what, FormStore& 
   full.together = std::move(together);
   full.on_one_line = true;
   const std::string either = "a node's name, or " + full.what;
-  // How many it takes, the chain says itself.
+  // The chain itself checks the number of joints.
   return store.add(list_of(store.add(choice_of(either, {values.name, store.add(std::move(full))})), what, 0));
 }
 
@@ -205,9 +205,9 @@ const Form* legs_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(list));
 }
 
-// The heights of a node that is a height field, where it stands at rest.
+// The heights of a node that is a height field, at its rest pose.
 void read_ground(const json::Value& value, FeetPose& pose, Building& building) {
-  pose.ground = {.columns = 2, .heights = {0, 0, 0, 0}};  // where there is a fault, which is told
+  pose.ground = {.columns = 2, .heights = {0, 0, 0, 0}};  // used if there is a fault, which is reported
   const auto found = building.nodes.find(value.text());
   if (found == building.nodes.end()) {
     if (!building.excused(value.text()))

@@ -1,7 +1,7 @@
 #pragma once
 
-// What graphs are made of: each part's form, and how it is read. Names that stand for nothing are not looked up here:
-// a graph is held against nodes and clips as a whole.
+// The parts of graphs: the form of each, and how it is read. Names are not looked up here: a graph is checked against
+// nodes and clips as a whole.
 
 #include <tweenfall/anim/graph.h>
 
@@ -29,10 +29,10 @@ const Form* mask_form(FormStore& store, const ValueForms& values);
 const Form* pose_form(FormStore& store, const ValueForms& values);
 void read_pose(const json::Value& value, GraphPose& pose, Building& building);
 
-// One word each, and what else is said beside it
+// The word of each operation, and the fields beside it
 struct OperationWord {
   std::vector<fields::Row<GraphPose>> rows;  // the first names the operation, which the others need
-  bool has_base = false;                     // it changes a pose, which is its base
+  bool has_base = false;                     // it changes a pose, its base
 };
 [[nodiscard]] OperationWord clip_word();
 [[nodiscard]] OperationWord rest_word();
@@ -59,7 +59,7 @@ template <class Operation>
   return {.rows = {{name, fields::form_of(table), help, {read}}}, .has_base = true};
 }
 
-// Rows that many of them have
+// Rows that many operations have
 [[nodiscard]] Form share_form();  // a weight from 0 to 1
 template <class Thing, class Access>
 [[nodiscard]] fields::Row<Thing> number_row(std::string name, Form plain, std::string help, std::string standard,
@@ -74,7 +74,7 @@ template <class Thing>
   return number_row<Thing>("weight", share_form(), "0 leaves the base as it is, 1 changes it wholly", "1",
                            &Thing::weight);
 }
-// A member that is a place, a direction, or radians told as degrees, absent or not.
+// A member that is a place, a direction, or an angle written in degrees; optional or not.
 template <class Thing, class Access>
 [[nodiscard]] fields::Row<Thing> place_row(std::string name, std::string help, bool required, Access access) {
   const auto read = [access](const json::Value& value, Thing& thing, Building& building) {

@@ -38,7 +38,7 @@ const Form* sync_form(FormStore& store, const ValueForms& values) {
 const Table<SpacePose>& space_table() {
   const auto by = [](const json::Value& value, SpacePose& space, Building&) {
     if (value.is(json::Value::Kind::text)) space.by.emplace_back(ByParameter{std::string(value.text())});
-    // One that is faulty counts: it is a space of two all the same.
+    // A faulty one counts too: the space still has two numbers.
     for (const json::Value& item : value.items()) space.by.emplace_back(ByParameter{std::string(item.text())});
   };
   const auto poses = [](const json::Value& value, SpacePose& space, Building& building) {

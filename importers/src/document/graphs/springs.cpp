@@ -8,7 +8,7 @@ using fields::member;
 using fields::Row;
 using fields::Table;
 
-// What a spring is, as fields of whatever has one.
+// The settings of a spring, as fields of any thing that has one.
 template <class Thing, class Access>
 std::vector<Row<Thing>> spring_rows(Access spring, bool with_gravity) {
   const auto part = [spring](auto SpringSettings::*value) {

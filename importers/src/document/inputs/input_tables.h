@@ -1,6 +1,6 @@
 #pragma once
 
-// What may be asked of a stage, and how each is read; a table of fields for each.
+// The inputs of a stage, and how each is read; one table of fields for each.
 
 #include <tweenfall/physics/stage/input.h>
 
@@ -11,7 +11,7 @@
 
 namespace tweenfall::document::inputs {
 
-/// A play asked for something.
+/// An input for a play.
 template <class Action>
 struct Asked {
   std::string play;
@@ -19,27 +19,27 @@ struct Asked {
   json::Value place{};  // of the play's name
 };
 
-/// Something for a body.
+/// An input for a body.
 template <class Settings>
 struct OfBody {
   Settings input{};
   json::Value place{};  // of the body's name
 };
 
-/// What a body is handed over to.
+/// A hand-over of a body.
 struct HandOverRead {
   std::string body;
   fields::ChangeBeingRead change;
 };
 
-/// Something for a graph.
+/// An input for a graph.
 template <class Settings>
 struct OfGraph {
   Settings input{};
   json::Value graph{}, name{};  // the places of both names
 };
 
-/// A vehicle is driven.
+/// Controls of a vehicle.
 struct Controlled {
   input::Control input{};
   json::Value place{};  // of the vehicle's name

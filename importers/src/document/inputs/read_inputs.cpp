@@ -23,7 +23,7 @@ namespace {
 
 using fields::Table;
 
-/// The inputs as they are read, one after another.
+/// Reads the inputs one after another.
 class Reader {
  public:
   explicit Reader(Building& building) : building_(building) {
@@ -83,7 +83,7 @@ class Reader {
                                                             std::string(clip ? "clip " : "play and no clip ") +
                                                             json::in_quotes(wanted) + suggestion(wanted, names));
     }
-    // What is said of a play holds for it, whether it runs or not.
+    // Fields given for a play apply to it, whether it runs or not.
     bool says_how = false;
     for (const json::Member& member : value.members())
       says_how = says_how || (member.name != "play" && !is_free_name(member.name));
@@ -93,7 +93,7 @@ class Reader {
     play_on(start.play, start.action, value);
   }
 
-  /// Does with the play what the stage will do; what that refuses is a fault of `place`.
+  /// Applies the change to the play as the stage will; if it refuses, that is a fault at `place`.
   void play_on(const std::string& name, const PlayAction& action, const json::Value& place) {
     if (building_.problems.size() != problems_before_) return;
     if (shared_.count(name) != 0) {
@@ -106,7 +106,7 @@ class Reader {
         played.player = played.player.changed(building_.stage.clips[played.clip], time_, action);
         return;
       }
-      // Where none has started, or of no clip, that has been told.
+      // A play that was not started, or whose clip is unknown, has been reported.
       const auto* start = std::get_if<playing::Start>(&action);
       if (!start) return;
       const auto clip = building_.clips.find(start->clip.empty() ? name : start->clip);
@@ -184,13 +184,13 @@ class Reader {
     } else {
       building_.problems.add(value, "the stage has several vehicles, " + listed(names) + "; say which \"vehicle\"");
     }
-    // What says something wrong is told where it stands.
+    // Wrong values are reported at their own places.
     if (value.members().size() == (controlled.place ? 1U : 0U))
       building_.problems.add(value, "a control says a \"throttle\", a \"brake\" or a \"steer\"");
     inputs.push_back({time_, controlled.input});
   }
 
-  /// Null where there is none, which is told. @param place  of its name; none: it is the only one
+  /// Null where there is none, which is reported. @param place of its name; none: it is the only one
   const GraphDescription* graph_called(const json::Value& place, const json::Value& whole) {
     const std::vector<GraphDescription>& graphs = building_.stage.graphs;
     std::vector<std::string> names;

@@ -19,7 +19,7 @@ std::string string_text(std::string_view text) {
   return out;
 }
 
-/// Degrees that are read as these radians, to the bit where some are.
+/// Degrees that are read as exactly these radians, if there are any.
 double degrees_of(double angle) {
   const double near = degrees(angle);
   for (const double towards : {HUGE_VAL, -HUGE_VAL})
@@ -28,7 +28,7 @@ double degrees_of(double angle) {
   return near;
 }
 
-/// The fields of one object; what means nothing is left out.
+/// The fields of one object; defaults are left out.
 class Fields {
  public:
   void add(const std::string& name, const std::string& json) {

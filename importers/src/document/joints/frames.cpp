@@ -16,7 +16,7 @@ bool has_two_points(const JointKind& kind) {
          std::holds_alternative<SpringJoint>(kind);
 }
 
-// Where its ends are, or nothing where that was told to be wrong.
+// The places of its ends; empty where these are faulty, which is reported.
 std::optional<std::array<Vec3, 2>> points_of(const JointBeingRead& read, std::span<const Pose> rests,
                                              Building& building) {
   const JointDescription& joint = read.joint;
@@ -39,7 +39,7 @@ std::optional<std::array<Vec3, 2>> points_of(const JointBeingRead& read, std::sp
   return {};
 }
 
-// How the axes of the second end lie: for most kinds as those of the first.
+// The axes of the second end, for most kinds those of the first.
 bool axes_stand(const JointBeingRead& read, Building& building) {
   constexpr double right = 1e-6;
   const double along = read.axis.dot(read.second_axis);

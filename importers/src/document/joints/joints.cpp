@@ -88,7 +88,7 @@ const Form* until_form(FormStore& store, const ValueForms& values) {
   return store.add(until_table().choosing_form(store, values));
 }
 
-// What a joint says beside its kind
+// The fields of a joint beside its kind
 std::vector<fields::Row<Read>> own_rows() {
   const auto of_joint = [](auto JointDescription::*part) {
     return fields::member<Read>([part](Read & read) -> auto& { return read.joint.*part; });
@@ -125,7 +125,7 @@ const fields::Table<Read>& joint_table() {
   return table;
 }
 
-// Of all nodes, in the world, as bodies stand there.
+// The rest poses of all nodes, in the world, as bodies have them.
 std::vector<Pose> rests_of(const std::vector<NodeDescription>& nodes) {
   std::vector<WorldMotion> world;
   std::vector<Pose> rests;

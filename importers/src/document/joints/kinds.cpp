@@ -27,7 +27,7 @@ fields::Row<Read> second_axis(std::string name, std::string help, bool required,
   return {std::move(name), &ValueForms::axis, std::move(help), {read, std::move(standard)}, required};
 }
 
-// Rows of what a member of a kind holds
+// Rows for the members of a kind
 
 template <class Kind, class Access>
 fields::Row<Read> angle_limits(std::string name, std::string help, Access part) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// The instants at which a curve is looked at to judge it.
+// The instants at which a curve is sampled to judge it.
 
 #include <tweenfall/curves/curve.h>
 
@@ -9,7 +9,7 @@
 
 namespace tweenfall::document::judging {
 
-// Calls `look(time, side)` at both sides of each key and half way between two, or, where there are none, along
+// Calls `look(time, side)` on both sides of each key and half way between two or, if there are no keys, along
 // `duration`, s.
 template <class T, class Look>
 void look_along(const Curve<T>& curve, double duration, Look look) {

@@ -9,7 +9,7 @@ namespace judging {
 
 namespace {
 
-// The member of `own`, or the import that brought it.
+// The member of `own`, or the import that it came from.
 json::Value place_of(const json::Value& root, std::string_view own, const std::string& name) {
   if (const json::Value list = usable(root, own))
     if (const json::Value written = usable(list, name)) return written;
@@ -49,9 +49,9 @@ json::Value place_of_track(const Building& building, const Clip& clip, const Tra
 
 void judge(Building& building) {
   judging::judge_tracks(building);
-  // Of what is faulty no more is known than its names.
+  // Nothing more is known about faulty parts than their names.
   if (!building.problems.empty()) return;
-  // What an import is on its own does not matter: only its nodes and clips come in, and into another stage.
+  // An import is not judged by itself, because only its nodes and clips are used, in another stage.
   if (!building.reading.is_outermost()) return;
   judging::judge_pace(building);
   judging::judge_angles(building);

@@ -13,7 +13,7 @@ namespace tweenfall::document::judging {
 
 namespace {
 
-// How many there are at a time at most, were there room for all.
+// The greatest number at any time, if there were room for all.
 double wanted(const ParticlesDescription& particles) {
   constexpr double looked_at = 600;
   double sum = 0;

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = json::Value::Kind;
 
-// The angles of one track or node, as they are written.
+// The angles of one track or node, as written.
 struct Angles {
   std::optional<double> turned{};  // the first that is not 0
   bool only_quarters = true;       // whether all are quarter turns in radians, to the digits that people write

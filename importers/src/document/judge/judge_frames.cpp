@@ -7,7 +7,7 @@ namespace tweenfall::document::judging {
 
 namespace {
 
-// Whether a node above has a body, which can carry the path of this one's.
+// Whether a node above has a body, which can carry the path of this one.
 bool can_be_carried(const Building& building, std::size_t node) {
   const std::vector<NodeDescription>& nodes = building.stage.nodes;
   for (std::size_t above = nodes[node].parent; above != no_node; above = nodes[above].parent)

@@ -32,7 +32,7 @@ bool judge_step(Building& building) {
   return false;
 }
 
-// Clip seconds per second of the fastest play of each clip; 1 of those that a verb may let play.
+// Clip seconds per second of the fastest play of each clip; 1 for clips that are only played on request.
 std::vector<double> fastest_plays(const StageDescription& stage) {
   std::vector<double> fastest(stage.clips.size(), 1);
   for (const Play& play : stage.plays)
@@ -74,7 +74,7 @@ void judge_spins(Building& building) {
   }
 }
 
-// A step would have more events than a run takes; of clips that do not play too, for one can be chosen.
+// Checks for more events in a step than a run accepts; also for clips that do not play, since one can be chosen.
 void judge_loop(Building& building, std::size_t clip, double speed) {
   const Play play{.clip = clip, .speed = speed};
   const std::string& name = building.stage.clips[clip].name;
@@ -82,18 +82,18 @@ void judge_loop(Building& building, std::size_t clip, double speed) {
   if (!fault.empty()) building.problems.add(below(place_of_clip(building, name), {"loop"}), fault);
 }
 
-// A recording of the usual length would have more events than one holds.
+// Notes it if a recording of the usual length would have more events than it can hold.
 /// @param usual  that length, s
 void note_recorded_events(Building& building, const json::Value& place, const Play& play, double usual) {
   const StageDescription& stage = building.stage;
-  // Half of it, for the question allows for twice as many.
+  // Half of it, because `too_many_events` allows for twice as many.
   if (!too_many_events(play, stage.clips[play.clip], usual / 2).empty())
     building.problems.note(place, "has more than a million events within " + brief_text(usual) +
                                       " s, the usual length of a recording, and none holds so many: lengthen its "
                                       "loop, or end the recording earlier");
 }
 
-// What lies after the end that a clip is given is never reached.
+// Keys after the stated end of a clip are never reached.
 void note_late_ends(Building& building, const Clip& clip) {
   const json::Value clips = usable(building.root, "clips"), own = clips ? usable(clips, clip.name) : clips;
   if (!own || !usable(own, "duration") || !std::isfinite(clip.duration)) return;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double least_change = 1e-6;  // of a scale: files hold them as floats
 
-// Whether a track of sizes ever gives another than that of the node at rest.
+// Whether a track of sizes ever differs from the size of the node at rest.
 bool changes_size(const Track& track, const Vec3& rest, double duration) {
   double most = 0;
   if (const auto* whole = std::get_if<Curve<Vec3>>(&track.curve); whole && track.property == "scale") {
@@ -31,7 +31,7 @@ bool changes_size(const Track& track, const Vec3& rest, double duration) {
   return most > least_change;
 }
 
-// Whether others can run into it.
+// Whether others can collide with it.
 bool collides(const std::optional<BodyDescription>& body) {
   return body && !body->sensor && body->collides_with != 0;
 }
@@ -41,7 +41,8 @@ struct Resized {
   std::size_t count = 0;
 };
 
-// What collides at or below the node of each track of a clip that changes sizes; of several on one way up, the lowest.
+// The colliders at or below the node of each track of a clip that changes sizes; of several on one path to the root,
+// the lowest.
 std::vector<Resized> resized_by(const Building& building, const Clip& clip) {
   const std::vector<NodeDescription>& nodes = building.stage.nodes;
   const std::size_t none = clip.tracks.size();
@@ -80,7 +81,7 @@ void judge_sizes(Building& building) {
     for (std::size_t i = 0; i < resized.size(); ++i) {
       const auto& [first, count] = resized[i];
       if (count == 0) continue;
-      // All tracks of an import stand at one place: the first speaks for them.
+      // All tracks of an import have the same place, so only the first is reported.
       const json::Value place = place_of_track(building, clip, clip.tracks[i]);
       if (last && place == last) continue;
       last = place;

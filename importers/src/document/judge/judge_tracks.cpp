@@ -24,7 +24,7 @@ std::set<std::string> followed_tracks(const json::Value& root) {
   return names;
 }
 
-// What such a track may have been meant for, or nothing.
+// What such a track may have been meant for, or empty.
 std::string meant_by(std::string_view track) {
   const std::string meant = property_meant(track);
   if (!meant.empty()) return "did you mean " + json::in_quotes(meant) + "?";
@@ -34,8 +34,8 @@ std::string meant_by(std::string_view track) {
 
 }  // namespace
 
-// Tracks of the author's own whose names are nearly those of ours or those of other programs; they are right, but
-// perhaps not what was meant.
+// User tracks with names close to ours or to those of other programs; they are valid, but perhaps not
+// intended.
 void judge_tracks(Building& building) {
   const std::set<std::string> followed = followed_tracks(building.root);
   const json::Value clips = usable(building.root, "clips");
@@ -44,7 +44,7 @@ void judge_tracks(Building& building) {
     const json::Value tracks = is_free_name(clip.name) ? json::Value() : usable(clip.value, "tracks");
     if (!tracks) continue;
     for (const json::Member& track : tracks.members()) {
-      // Where its value is at fault, that says what was meant, too.
+      // If its value is faulty, that message says what was meant, too.
       if (is_free_name(track.name) || track.value.is(json::Value::Kind::faulty)) continue;
       if (followed.contains(std::string(track.name))) continue;
       if (const std::string meant = meant_by(track.name); !meant.empty())

@@ -87,7 +87,7 @@ const fields::Table<Read>& table() {
   return table;
 }
 
-// A group of bodies that no name of the author's gives.
+// A group of bodies without a name in the document.
 std::optional<std::uint64_t> own_group(Building& building) {
   constexpr std::size_t most = 64;
   std::vector<std::string>& groups = building.reading.groups;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Ragdolls that a world fits to imported figures, by the names of their imports.
+// Ragdolls fitted to imported figures, by the names of their imports.
 
 #include "document/content.h"
 #include "document/grammar/grammar_parts.h"

@@ -17,7 +17,7 @@ namespace {
 
 using Kind = json::Value::Kind;
 
-// Seconds as far as they can be told without the duration; problems are for later.
+// Seconds if they can be computed without the duration; problems are reported later.
 std::optional<double> early_seconds(json::Value time, std::optional<double> previous, std::optional<double> fps) {
   if (!time) return {};
   if (time.is(Kind::number)) return time.number();
@@ -34,7 +34,7 @@ json::Value keys_of(const json::Value& track) {
   return usable(track, "keys");
 }
 
-// The tracks of numbers that a track is made of.
+// The tracks of numbers inside a track.
 json::Items parts_of(const json::Value& track) {
   if (const json::Value mix = usable(track, "barycentric"))
     if (const json::Value weights = usable(mix, "weights")) return weights.items();
@@ -48,7 +48,7 @@ bool is_endless(const json::Value& track) {
   return false;
 }
 
-// How long a function takes that begins at 0 s and ends; 0 where there is none.
+// The duration of a function that begins at 0 s and ends; 0 where there is none.
 double passing_time(const json::Value& track) {
   for (const char* name : {"path", "line", "arc"})
     if (const json::Value function = usable(track, name)) return number_in(function, "duration", 1);
@@ -58,7 +58,7 @@ double passing_time(const json::Value& track) {
     const json::Value points = usable(spline, "points");
     const json::Value times = usable(spline, "times"), knots = usable(spline, "knots");
     if (times && !times.items().empty()) return times.items().back().number();
-    // A B-spline ends at the knot that has the number of its points.
+    // A B-spline ends at the knot whose index is its number of points.
     if (knots && points && points.items().size() < knots.items().size())
       return knots.items()[points.items().size()].number();
     return number_in(spline, "duration", 1);
@@ -147,7 +147,7 @@ std::vector<std::optional<double>> ClipTimes::of_keys(const json::Value& keys, P
     const KeyParts parts = key_parts(key);
     std::optional<double> time;
     if (parts.time) {
-      // After a faulty key, a "+" has nothing to count from; that is not this key's fault.
+      // After a faulty key, a "+" has nothing to count from; that is not a fault of this key.
       Problems unheard;
       time = seconds(parts.time, previous, any_before && !previous ? unheard : problems);
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-// From times as written to seconds of a clip.
+// Converts times as written to seconds of a clip.
 
 #include "document/report/problems.h"
 
@@ -10,7 +10,7 @@
 
 namespace tweenfall::document {
 
-// Where a key or event keeps its parts; none for what is absent or faulty.
+// The parts of a key or event; none where absent or faulty.
 struct KeyParts {
   json::Value time, value, ease, in, out, value_in;
 };
@@ -26,7 +26,7 @@ class ClipTimes {
   [[nodiscard]] std::optional<double> seconds(const json::Value& time, std::optional<double> previous,
                                               Problems& problems) const;
 
-  // One for each key, empty where faulty; that they increase is checked.
+  // One for each key, empty where faulty; checks that they increase.
   [[nodiscard]] std::vector<std::optional<double>> of_keys(const json::Value& keys, Problems& problems) const;
 
  private:
@@ -34,7 +34,7 @@ class ClipTimes {
   std::string no_duration_reason_;
 };
 
-// The duration of a clip: what it says, else its latest key or event that does not hang on a "%".
+// The duration of a clip: the one stated, else its latest key or event that does not depend on a "%".
 // Infinity for functions only; 0 for nothing at all.
 [[nodiscard]] double clip_duration(const json::Value& clip, std::optional<double> fps);
 

@@ -8,7 +8,7 @@ void parents_first(Building& building) {
   std::vector<NodeDescription>& nodes = building.stage.nodes;
   std::vector<std::size_t> place(nodes.size(), no_node), order, waiting;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    // From this node up to the first that is placed, then down again.
+    // From this node up to the first one already placed, then down again.
     for (std::size_t at = i; at != no_node && place[at] == no_node; at = nodes[at].parent) waiting.push_back(at);
     for (; !waiting.empty(); waiting.pop_back()) {
       place[waiting.back()] = order.size();

@@ -84,7 +84,7 @@ Clip read_clip(const json::Member& member, std::optional<double> fps, Problems& 
   if (const json::Value said = usable(value, "duration"))
     said_duration = ClipTimes(fps, {}, "").seconds(said, {}, problems);
   clip.duration = clip_duration(value, fps);
-  // What hangs on a faulty duration is not at fault itself.
+  // Times that depend on a faulty duration are not faulty themselves.
   if (value.find("duration") && !said_duration && !(clip.duration > 0 && std::isfinite(clip.duration)))
     clip.duration = 1;
   const bool endless = std::isinf(clip.duration);

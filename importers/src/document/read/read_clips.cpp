@@ -15,7 +15,7 @@ namespace {
 
 using Kind = json::Value::Kind;
 
-// Without nodes of its own a document's tracks make them, in order of appearance, so that it can be played.
+// If a document has no nodes, its tracks make them, in order of appearance, so that it can be played.
 void make_nodes(Building& building, const json::Value& tracks) {
   for (const json::Member& track : tracks.members()) {
     const std::size_t dot = property_dot(track.name);

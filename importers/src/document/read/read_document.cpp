@@ -18,7 +18,7 @@ namespace tweenfall::document {
 
 namespace {
 
-// A reader does not guess at what another version means: this is then the only problem told.
+// The meaning of another version is not guessed: then this is the only problem reported.
 bool is_other_version(const json::Value& root, Problems& problems) {
   const json::Value version = root.find("tweenfall");
   if (!version || !version.is(json::Value::Kind::number) || version.number() == document_version) return false;

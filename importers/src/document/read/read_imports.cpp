@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_files = 1000;
-// Files that import others several times grow by powers.
+// Files that import others several times grow exponentially.
 constexpr std::size_t most_parts = 100'000, most_vertices = 50'000'000;
 
 std::size_t parts_of(const StageDescription& stage) {
@@ -49,8 +49,8 @@ Brought from_model(Model model) {
   return out;
 }
 
-// Nodes, clips and meshes under the import's name, and what a model has of joints; rules, plays and the world of a
-// document stay behind.
+// Adds nodes, clips and meshes under the import's name, and the joints of a model; rules, plays and the world of a
+// document are not imported.
 void take(Building& building, const std::string& alias, const Brought& brought) {
   StageDescription& stage = building.stage;
   const std::size_t first_node = stage.nodes.size(), first_mesh = stage.meshes.size(), first_skin = stage.skins.size();
@@ -90,7 +90,7 @@ void take(Building& building, const std::string& alias, const Brought& brought) 
   }
 }
 
-// Whether `file` lies below `folder`, links followed.
+// Whether `file` lies below `folder`, following links.
 bool is_below(const fs::path& file, const fs::path& folder) {
   const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
   // A folder's path may end with an empty part.
@@ -105,7 +105,7 @@ class Importer {
     const json::Value& place = member.value;
     std::error_code fault;
     const fs::path given = building_.folder / fs::path(place.text());
-    // Of what is not there a relative path would stay relative, and lie in no folder.
+    // For a missing file a relative path would stay relative, and not lie in any folder.
     const fs::path base = fs::weakly_canonical(fs::current_path() / building_.folder, fault);
     const fs::path file = fs::weakly_canonical(base / fs::path(place.text()), fault);
     if (fault) return tell(place, json::in_quotes(place.text()) + " is no path of a file: " + fault.message());
@@ -136,7 +136,7 @@ class Importer {
  private:
   void tell(const json::Value& place, std::string message) { building_.problems.add(place, std::move(message)); }
 
-  // What the file holds; null where it has problems, which are told.
+  // The content of the file; null where it has problems, which are reported.
   std::shared_ptr<const Brought> brought_by(const fs::path& file, const fs::path& given, const json::Value& place) {
     std::map<fs::path, std::shared_ptr<const Brought>>& known = building_.reading.brought;
     if (const auto found = known.find(file); found != known.end()) {
@@ -177,7 +177,7 @@ class Importer {
     return from_model(std::move(model));
   }
 
-  // The file of that folder that was meant, if one is near.
+  // The file in that folder that was probably meant, if there is a similar name.
   static std::string in_folder(const fs::path& file, const std::string& written);
 
   Building& building_;

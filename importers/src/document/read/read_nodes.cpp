@@ -51,7 +51,7 @@ void hang(const std::vector<HungNode>& hung, Building& building) {
   }
 }
 
-// Own nodes may name parents that come later; the stage wants parents first.
+// The document's own nodes may name parents that come later; the stage needs parents first.
 struct OwnNodes {
   std::vector<json::Member> members;
   std::map<std::string, std::size_t, std::less<>> index;
@@ -115,7 +115,7 @@ void read_nodes(Building& building) {
   for (const json::Member& member : nodes.members()) {
     if (is_free_name(member.name)) continue;
     if (const auto known = building.nodes.find(member.name); known != building.nodes.end()) {
-      // A node of an import: what it is in its file stays, and this adds to it.
+      // A node of an import keeps its content from the file, and this adds to it.
       for (const std::string& given : fields::place_names())
         if (const json::Value value = usable(member.value, given))
           problems.add(value, json::in_quotes(given) +
@@ -140,7 +140,7 @@ void read_nodes(Building& building) {
 
   std::vector<std::string> names = building.node_names();
   for (json::Member member : own.members) names.emplace_back(member.name);
-  // The own node that each one hangs on, if any; unknown parents are told.
+  // The parent of each among the document's own nodes, if any; unknown parents are reported.
   std::vector<std::optional<std::size_t>> parent(own.members.size());
   for (std::size_t i = 0; i < own.members.size(); ++i) {
     const json::Value given = usable(own.members[i].value, "parent");

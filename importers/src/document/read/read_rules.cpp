@@ -60,7 +60,7 @@ class RuleReader {
     }
   }
 
-  // Whichever of its changes takes the bodies back; once they follow a clip by name, they have a path.
+  // Any of its changes may take the bodies back; if they follow a clip by name, they have a path.
   void check_paths(const fields::RuleBeingRead& read) {
     const fields::ChangeBeingRead* change = &read.change;
     while (!change->follows) {
@@ -74,7 +74,7 @@ class RuleReader {
     if (!change.to || change.change.to.owner() != Owner::keyed) return;
     for (const std::size_t i : read.bodies) {
       const NodeDescription& node = building_.stage.nodes[i];
-      // A body that is keyed without being animated has its place of rest for a path, and its author said so.
+      // A body that is keyed without being animated has its rest place as its path, as its author stated.
       const bool rests = node.body->drive && node.body->drive->owner() == Owner::keyed;
       if (animated_[i] || rests) continue;
       building_.problems.add(
@@ -85,7 +85,7 @@ class RuleReader {
     }
   }
 
-  // Two rules that act on one body at one time would leave the outcome to their order.
+  // If two rules acted on one body at the same time, the outcome would depend on their order.
   void check_instants(const json::Value& value, const fields::RuleBeingRead& read) {
     if (read.rule.when.all && read.rule.when.triggers.size() > 1) return;
     std::vector<fields::RuleInstant> instants = read.instants;

@@ -14,7 +14,7 @@ std::optional<TimeInWords> time_in_words(std::string_view text) {
     time.unit = text.back() == 'f' ? TimeInWords::Unit::frames : TimeInWords::Unit::percent;
     text.remove_suffix(1);
   }
-  // No more digits than a number of seconds can need, so that none is lost.
+  // At most as many digits as seconds can need, so that none is lost.
   const std::size_t point = text.find('.');
   const auto digits = [](std::string_view part) {
     return !part.empty() && part.size() <= 12 && part.find_first_not_of("0123456789") == std::string_view::npos;

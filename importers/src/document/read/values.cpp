@@ -155,7 +155,7 @@ std::optional<Quat> rotation_of(const json::Value& value, const EulerOrder& orde
     }
     const Vec4 scaled = parts / size;
     const Vec4 unit = scaled / scaled.norm();
-    // What is of unit length already keeps its bits.
+    // A quaternion that is of unit length already keeps its bits.
     const double length = parts.norm();
     const Vec4& used = std::abs(length - 1) < 1e-15 ? parts : unit;
     return Quat(used[3], used[0], used[1], used[2]);

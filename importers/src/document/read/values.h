@@ -1,7 +1,7 @@
 #pragma once
 
-// Values out of a tree that was held against its form. Where the value is missing or faulty (which was reported), the
-// fallback stands in, so that all that can be checked is checked.
+// Values from a tree that was checked against its form. Where a value is missing or faulty (which was reported), the
+// fallback is used, so that everything else can still be checked.
 
 #include <tweenfall/curves/color.h>
 #include <tweenfall/curves/rotation.h>
@@ -21,7 +21,7 @@ namespace tweenfall::document {
 // A member that can be used; null when absent or faulty.
 [[nodiscard]] json::Value usable(const json::Value& object, std::string_view name);
 
-// The value below `object` by the names on the way, or the last that is there.
+// The value below `object` along the names, or the last existing one.
 [[nodiscard]] json::Value below(json::Value object, std::initializer_list<std::string_view> names);
 
 [[nodiscard]] double number_in(const json::Value& object, std::string_view name, double fallback);
@@ -29,10 +29,10 @@ namespace tweenfall::document {
 [[nodiscard]] std::string text_in(const json::Value& object, std::string_view name, const std::string& fallback = {});
 [[nodiscard]] Vec3 vector_in(const json::Value& object, std::string_view name, const Vec3& fallback);
 
-// Of a name, or of a list of names.
+// From a name, or from a list of names.
 [[nodiscard]] std::vector<std::string> names_of(const json::Value& value);
 [[nodiscard]] std::optional<Vec3> vector_of(const json::Value& value);
-[[nodiscard]] std::optional<Vec3> scale_of(const json::Value& value);  // one number is for all three axes
+[[nodiscard]] std::optional<Vec3> scale_of(const json::Value& value);  // a single number is for all three axes
 [[nodiscard]] std::optional<Color> color_of(const json::Value& value);
 [[nodiscard]] std::string color_text(const Color& color);
 

@@ -55,7 +55,7 @@ class Checker {
   }
 
  private:
-  // What could be written in place of a value of another kind.
+  // What could be written instead of a value of another kind.
   static std::string instead_of(const Form& form, const json::Value& value) {
     if (form.instead)
       if (std::string better = form.instead(value); !better.empty()) return better;
@@ -80,13 +80,13 @@ class Checker {
     tree_.mark_faulty(at);
   }
 
-  // The object that a bare value stands for: with the first field that holds it, where no other must be there.
+  // The object that a bare value may be meant for: with the first field that accepts it, if no other field is required.
   static std::string as_field_of(const Form& form, const json::Value& value) {
     const Form* object = form.kind == Form::Kind::object ? &form : nullptr;
     for (const Form* alternative : form.alternatives)
       if (!object && alternative->kind == Form::Kind::object) object = alternative;
     if (!object) return {};
-    constexpr std::size_t most = 8;  // of more fields none is the one that must be meant
+    constexpr std::size_t most = 8;  // with more fields, it is unclear which one is meant
     if (object->fields.size() > most) return {};
     for (const Field& field : object->fields) {
       if (may_stand_alone(*object, field.name) && holds(*field.form, value)) return member_said(field.name, value);
@@ -110,7 +110,7 @@ class Checker {
     return low && number <= form.high && (!form.whole || number == std::floor(number));
   }
 
-  // Whether a number, a text or a list of them is all right as it is.
+  // Whether a number, a text or a list of them is valid as it is.
   static bool holds(const Form& form, const json::Value& value) {
     const Form* chosen = resolved(form, value);
     if (!chosen) return false;
@@ -175,7 +175,7 @@ class Checker {
     const bool fits = value.items().size() >= form.fewest && value.items().size() <= form.parts.size();
     const std::string meant = !fits && form.instead ? form.instead(value) : std::string();
     if (!meant.empty()) {
-      // What its items are in the wrong places is noise.
+      // Faults of its items, in the wrong places, would be noise.
       fault(value, "expected " + what + ", found " + described(value) + meant);
       return;
     }
@@ -192,7 +192,7 @@ class Checker {
         return;
       }
     }
-    std::vector<std::string> meant;  // fields that a misspelled name is near to
+    std::vector<std::string> meant;  // fields similar to a misspelled name
     around_.push_back(&form);
     for (const json::Member& member : value.members()) {
       if (is_free_name(member.name)) continue;
@@ -212,7 +212,7 @@ class Checker {
       const std::size_t before = problems_.size();
       this->value(*expected, member.value);
       if (problems_.size() == before || expected != form.others || !form.name_meant) continue;
-      // Where the name is wrong, the faults of its value by that name are noise.
+      // If the name is wrong, the faults of its value under that name would be noise.
       const std::string ours = form.name_meant(member.name);
       if (ours.empty()) continue;
       problems_.keep(before);
@@ -236,7 +236,7 @@ class Checker {
       if (hint.empty()) hint = suggestion_of({}, form.field_names());
     }
     problems_.add_name(member, "unknown field " + json::in_quotes(member.name) + hint);
-    // What is wrong inside is wrong there, too.
+    // Faults inside it would be faults at the right place, too.
     if (homes_ && member.value.is(Kind::object))
       if (const Form* meant = homes_->meant_form(member.name, form, around_))
         if (const Form* chosen = resolved(*meant, member.value); chosen && chosen->kind == Form::Kind::object)
@@ -265,7 +265,7 @@ class Checker {
     if (!first && rule.rule == Together::Rule::exactly_one) {
       std::string names;
       for (const std::string& name : rule.names) names += (names.empty() ? "" : ", ") + json::in_quotes(name);
-      // Where the name is misspelled, the unknown field was reported; that it is missing too would be noise.
+      // If a name is misspelled, the unknown field was reported; reporting it as missing too would be noise.
       for (const json::Member& member : value.members())
         if (member.value.is(Kind::faulty)) return;
       problems_.add(value, "expected " + what + "; one of " + names + " is missing");
@@ -275,8 +275,8 @@ class Checker {
   const Form& root_;
   json::Tree& tree_;
   Problems& problems_;
-  std::vector<const Form*> around_;  // the objects that are open, the outermost first
-  std::optional<Homes> homes_;       // made when the first is asked for
+  std::vector<const Form*> around_;  // the enclosing objects, the outermost first
+  std::optional<Homes> homes_;       // made at the first use
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 
 using Kind = json::Value::Kind;
 
-// Source: CSS Color Module Level 4, 6.1, those that people know by heart.
+// Source: CSS Color Module Level 4, 6.1; the best known ones.
 constexpr std::array<std::pair<std::string_view, unsigned>, 27> named_colors = {{
     {"black", 0x000000},   {"silver", 0xc0c0c0}, {"gray", 0x808080},   {"grey", 0x808080},    {"white", 0xffffff},
     {"maroon", 0x800000},  {"red", 0xff0000},    {"purple", 0x800080}, {"fuchsia", 0xff00ff}, {"green", 0x008000},
@@ -38,8 +38,8 @@ std::string two_digits(double part) {
   return {digits[whole / 16], digits[whole % 16]};
 }
 
-// Three or four parts from 0 to 1, or with larger ones to 255, of which the fourth, how opaque, is always to 1 where it
-// can be; nothing of others.
+// From three or four parts from 0 to 1, or to 255 if there are larger ones; the fourth, the opacity, is from 0 to 1
+// whenever possible. Empty for others.
 std::string hex_of(std::vector<double> parts) {
   if (parts.size() != 3 && parts.size() != 4) return {};
   const double most = *std::max_element(parts.begin(), parts.begin() + 3);

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a color of another program's spelling is in ours.
+// Converts colors in the spelling of other programs to ours.
 
 #include "json/json_tree.h"
 
@@ -8,8 +8,8 @@
 
 namespace tweenfall::document {
 
-// `"; say \"#ff0000\""` of [1, 0, 0], [255, 0, 0], {"r": 1, "g": 0, "b": 0}, 16711680, "red" and "rgb(255, 0, 0)", or
-// nothing where it is not known what is meant.
+// `"; say \"#ff0000\""` for [1, 0, 0], [255, 0, 0], {"r": 1, "g": 0, "b": 0}, 16711680, "red" and "rgb(255, 0, 0)", or
+// empty where the meaning is not known.
 [[nodiscard]] std::string color_meant(const json::Value& value);
 [[nodiscard]] std::string color_meant(std::string_view text);
 

@@ -10,8 +10,8 @@ namespace tweenfall::document {
 
 namespace {
 
-// What other programs and formats call what is ours, in small letters without marks between words; heeded where ours is
-// among what can be said.
+// Names of our properties in other programs and formats, in lower case without separators; used where our name is
+// valid.
 constexpr std::pair<std::string_view, std::string_view> words_of_others[] = {
     {"translation", "position"},
     {"translate", "position"},
@@ -152,14 +152,14 @@ constexpr std::pair<std::string_view, std::string_view> words_of_others[] = {
     {"influences", "weights"},
 };
 
-// Which of a property's numbers are meant, beside what the whole is called.
+// Names of single numbers of a property.
 constexpr std::pair<std::string_view, std::string_view> parts_of_others[] = {
     {"opacity", "color.a"}, {"alpha", "color.a"},      {"transparency", "color.a"},
     {"left", "position.x"}, {"top", "position.y"},     {"pitch", "rotation.x"},
     {"yaw", "rotation.y"},  {"heading", "rotation.y"}, {"roll", "rotation.z"},
 };
 
-// What stands before or behind such a word and changes nothing in it: Unity's m_LocalScale, Blender's hide_viewport.
+// Words before or after such a name that do not change its meaning: Unity's m_LocalScale, Blender's hide_viewport.
 constexpr std::array<std::string_view, 21> beside_words = {
     "m",     "local",    "global", "world",   "lcl",      "lossy",      "delta",
     "is",    "self",     "base",   "anchor",  "anchored", "euler",      "axis",
@@ -168,7 +168,7 @@ constexpr std::array<std::string_view, 21> beside_words = {
 constexpr std::array<std::string_view, 10> words_of_sight = {"visible", "visibility", "hide",    "hidden",    "show",
                                                              "shown",   "display",    "enabled", "invisible", "active"};
 
-constexpr std::size_t longest_word = 64;  // what is longer is no misspelled word
+constexpr std::size_t longest_word = 64;  // longer names are not misspelled words
 
 bool is_among(std::string_view word, std::span<const std::string_view> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -199,7 +199,7 @@ std::string joined(std::span<const std::string> words) {
   return out;
 }
 
-// The words of a name, less what changes nothing; all of them where nothing else is there.
+// The words of a name without those that do not change its meaning; all of them if there are no others.
 std::vector<std::string> core_of(std::string_view name) {
   std::vector<std::string> words = words_in(name), core;
   for (const std::string& word : words)
@@ -210,13 +210,13 @@ std::vector<std::string> core_of(std::string_view name) {
 std::string listed_word(std::string_view plain, std::span<const std::string> names) {
   for (const auto& [foreign, ours] : words_of_others)
     if (plain == foreign && std::find(names.begin(), names.end(), ours) != names.end()) return std::string(ours);
-  constexpr std::size_t most_compared = 5000;  // so that a hostile file costs no more
+  constexpr std::size_t most_compared = 5000;  // bounds the cost of a hostile file
   for (const std::string& name : names.first(std::min(names.size(), most_compared)))
     if (joined(words_in(name)) == plain) return name;
   return {};
 }
 
-// The single letter in which "rotateX" and "position[y]" end, which is taken off; or nothing.
+// Removes and returns the single letter at the end of "rotateX" and "position[y]"; or empty.
 std::string part_of(std::vector<std::string>& core) {
   if (core.size() < 2 || core.back().size() != 1) return {};
   std::string part = core.back();

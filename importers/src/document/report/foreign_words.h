@@ -1,6 +1,6 @@
 #pragma once
 
-// What other programs call what is ours: Blender, Maya, Unity, Unreal, Godot, three.js, CSS, glTF, FBX.
+// Names of our fields and properties in other programs: Blender, Maya, Unity, Unreal, Godot, three.js, CSS, glTF, FBX.
 
 #include <span>
 #include <string>
@@ -12,15 +12,15 @@ namespace tweenfall::document {
 // A to Z as a to z.
 [[nodiscard]] std::string small_letters(std::string_view text);
 
-// The one of `names` that such a word stands for: "position" for "location", "localPosition" or "Lcl Translation"; or
-// nothing.
+// The one of `names` that such a word means: "position" for "location", "localPosition" or "Lcl Translation"; or
+// empty.
 [[nodiscard]] std::string word_of_ours(std::string_view foreign, std::span<const std::string> names);
 
-// The property of a node, or one number of it, that such a word stands for: "rotation.x" for "rotateX", "color.a" for
-// "opacity"; or nothing.
+// The property of a node, or one number of it, that such a word means: "rotation.x" for "rotateX", "color.a" for
+// "opacity"; or empty.
 [[nodiscard]] std::string property_of_ours(std::string_view foreign);
 
-// What does for a node what such a word does elsewhere, where we have no such property or field; or nothing.
+// What to use instead of such a word where we have no such property or field; or empty.
 [[nodiscard]] std::string said_of_property(std::string_view foreign, std::string_view node);
 [[nodiscard]] std::string said_of_field_of_node(std::string_view foreign);
 [[nodiscard]] std::string said_of_field_of_body(std::string_view foreign);

@@ -17,7 +17,7 @@ void add_once(std::vector<std::string>& places, const std::string& place) {
   if (std::ranges::find(places, place) == places.end()) places.push_back(place);
 }
 
-// "in \"a\" or in \"b\"", of very many the first
+// "in \"a\" or in \"b\"", the first ones of very many
 std::string told(const std::vector<std::string>& places) {
   constexpr std::size_t most = 6;
   std::string out;
@@ -36,7 +36,7 @@ Homes::Homes(const Form& root) {
   }
 }
 
-// The objects with fields that a value of this form holds before any other.
+// Adds the objects with fields that a value of this form contains directly.
 void Homes::add(const Form& form, std::string what, const std::string& field, bool one_of_many, const Object* holder) {
   if (!form.what.empty()) what = form.what;
   for (const Form* alternative : form.alternatives) add(*alternative, what, field, one_of_many, holder);
@@ -54,7 +54,7 @@ void Homes::add(const Form& form, std::string what, const std::string& field, bo
 
 std::string Homes::near(std::string_view name, const Form& here, std::span<const Form* const> around) const {
   std::vector<std::string> places;
-  // What stands deep in is rather a wrong word of its own than a part of the whole document gone astray.
+  // A name deep inside is more likely a wrong word than a misplaced part of the document.
   constexpr std::size_t deepest = 2;
   const auto own = std::ranges::find(objects_, &here, &Object::form);
   const bool deep = own != objects_.end() && own->depth > deepest;
@@ -74,14 +74,14 @@ bool Homes::is_in(const Object& object, const Form& holder) {
 }
 
 std::string Homes::anywhere(std::string_view name, const Form& here) const {
-  constexpr std::size_t most = 3;  // a name of more things than that says nothing
-  // What stands deeper in is rather a wrong word of its own than one of the large parts gone astray.
+  constexpr std::size_t most = 3;  // a name that more things have is not helpful
+  // A name deeper inside is more likely a wrong word than one of the large parts misplaced.
   constexpr std::size_t deepest = 2;
   const auto own = std::ranges::find(objects_, &here, &Object::form);
   if (own == objects_.end() || own->depth > deepest) return {};
   std::vector<std::string> places;
   std::size_t depth = 0;
-  // What has it inside is nearer than what has it elsewhere.
+  // Objects inside this one are preferred to others.
   const bool inside = std::ranges::any_of(
       objects_, [&](const Object& object) { return object.form->field(name) && is_in(object, here); });
   for (const Object& object : objects_) {

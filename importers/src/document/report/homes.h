@@ -1,6 +1,7 @@
 #pragma once
 
-// Where a name is at home that an object does not know: found in the forms, so that every field has one.
+// Finds the place where a name that an object does not know is valid; derived from the forms, so it works for every
+// field.
 
 #include "document/form.h"
 
@@ -17,12 +18,12 @@ class Homes {
  public:
   explicit Homes(const Form& root);
 
-  // `"; it belongs in \"world\""`, `"; did you mean \"step\" in \"world\"?"` of what others call it and of what is
-  // nearly it, or nothing.
-  // @param around  the objects that `here` stands in, the outermost first
+  // `"; it belongs in \"world\""`, or `"; did you mean \"step\" in \"world\"?"` for names in other programs and similar
+  // names, or empty.
+  // @param around the objects around `here`, the outermost first
   [[nodiscard]] std::string of(std::string_view name, const Form& here, std::span<const Form* const> around) const;
 
-  // What a value of this name is where it is at home, if there is but one such place near.
+  // The form of a value of this name where it is valid, if there is only one such place nearby.
   [[nodiscard]] const Form* meant_form(std::string_view name, const Form& here,
                                        std::span<const Form* const> around) const;
 
@@ -31,7 +32,7 @@ class Homes {
     const Form* form;
     std::string where;     // `in "world"`, `in a node of "nodes"`
     const Object* holder;  // null for the whole document
-    std::size_t depth;     // how many objects hold it
+    std::size_t depth;     // number of objects around it
   };
 
   void add(const Form& form, std::string what, const std::string& field, bool one_of_many, const Object* holder);

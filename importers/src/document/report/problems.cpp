@@ -35,7 +35,7 @@ std::string Problem::text() const {
 
   const std::string number = std::to_string(line);
   out += "\n " + number + " | " + excerpt + "\n " + std::string(number.size(), ' ') + " | ";
-  // Tabs stay tabs, so that the caret stands below its place however wide they are shown.
+  // Tabs stay tabs, so that the caret is below its place however wide tabs are shown.
   std::size_t before = column - std::min(column, excerpt_column);
   for (const char c : excerpt) {
     if (before == 0) break;
@@ -55,7 +55,7 @@ namespace {
 
 constexpr std::size_t longest_excerpt = 160;  // bytes
 
-// The place that a problem is told at, walked to from the one before it.
+// Finds the line and column of a problem, starting from the problem before it.
 class Walk {
  public:
   explicit Walk(std::string_view text)
@@ -83,7 +83,7 @@ class Walk {
     return line_end_;
   }
 
-  // The line, or of a very long one what stands around the place.
+  // Sets the excerpt: the line or, if it is very long, the part around the place.
   void excerpt(Problem& problem) {
     const std::size_t end = line_end();
     std::size_t from = line_start_, to = end > from && text_[end - 1] == '\r' ? end - 1 : end;
@@ -96,7 +96,7 @@ class Walk {
       to = std::min(to, from + longest_excerpt);
       while (to < end && inside(to)) ++to;
     }
-    // What is not UTF-8 is shown by the same letters as it is counted.
+    // Bytes that are not UTF-8 are shown as the characters as which they are counted.
     const std::string before = utf8_text(text_.substr(from, at_ - std::min(at_, from)));
     const std::string after = utf8_text(text_.substr(std::max(at_, from), to - std::min(to, std::max(at_, from))));
     problem.excerpt_column = column_ - json::characters_in(before);

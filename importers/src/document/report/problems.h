@@ -1,6 +1,6 @@
 #pragma once
 
-// All that is wrong with one document, gathered while it is read; places are looked up at the end, once.
+// Collects the problems of one document while it is read; places are looked up once, at the end.
 
 #include <tweenfall/importers/document.h>
 
@@ -17,29 +17,29 @@ class Problems {
   void add(const json::Fault& fault) { errors_.entries.push_back({fault, {}}); }
   void add(const json::Value& at, std::string message);
   void add_name(const json::Member& at, std::string message);
-  // The same of two members, the second of which is where the first stands, too.
+  // The same for two members that conflict.
   void add_name_beside(const json::Member& at, std::string message, const json::Member& other);
-  // Forgets errors that another says better. @param count  errors that stay, the first
+  // Removes errors that another one explains better. @param count number of first errors to keep
   void keep(std::size_t count);
-  // What is no fault; it is told beside errors, too.
+  // A note, which is not a fault; it is reported even if there are errors.
   void note(const json::Value& at, std::string message);
   void note_name(const json::Member& at, std::string message);
   // Problems and notes of an imported file, at their places there.
   void add_foreign(const std::vector<Problem>& problems);
 
-  // Of errors; notes do not count
+  // About errors; notes do not count
   [[nodiscard]] bool empty() const { return size() == 0; }
   [[nodiscard]] std::size_t size() const { return errors_.entries.size() + errors_.foreign.size(); }
 
-  // Where errors of this text stand, in its order
+  // The places of errors in this text, in order
   [[nodiscard]] std::vector<std::size_t> places() const;
 
-  // Whether suggestions, which look at all names, are no longer worth their time.
+  // Whether there are so many errors that suggestions, which search all names, are not worth the time.
   [[nodiscard]] bool crowded() const { return size() > most_listed || looked_at_ > most_looked_at; }
-  // Names were looked at for a suggestion.
+  // Counts names searched for a suggestion.
   void look_at(std::size_t names) { looked_at_ += names; }
 
-  // In order of the text; of very many the first.
+  // In order of the text; the first ones of very many.
   [[nodiscard]] std::vector<Problem> located(Severity severity, const std::string& file, const json::Tree& tree) const;
 
   static constexpr std::size_t most_listed = 400;
@@ -49,8 +49,8 @@ class Problems {
 
   struct Entry {
     json::Fault fault;
-    json::Value value;                      // whose length is the fault's, unless it has one
-    std::optional<std::size_t> other = {};  // where the other stands that has part in it
+    json::Value value;                      // its length is that of the fault, unless the fault has one
+    std::optional<std::size_t> other = {};  // place of the other member involved
   };
 
   struct Told {

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = json::Value::Kind;
 
-// What is written out is no longer than this, so that a message stays one line.
+// Longer values are not quoted, so that a message stays on one line.
 constexpr std::size_t longest_said = 120;
 
 std::string said(const std::string& text) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Values as other programs and formats spell them, in the spelling of a document: what to write in their place.
+// Suggestions for values in the spelling of other programs and formats: what to write instead.
 
 #include "json/json_tree.h"
 
@@ -10,7 +10,7 @@
 
 namespace tweenfall::document {
 
-// All of these give `"; say ..."`, or nothing where it is not known what is meant.
+// All of these return `"; say ..."`, or empty where the meaning is not known.
 
 [[nodiscard]] std::string number_meant(std::string_view text);                           // "100px", "1.5", "90deg"
 [[nodiscard]] std::string member_said(std::string_view name, const json::Value& value);  // {"name": value}
@@ -28,7 +28,7 @@ namespace tweenfall::document {
 [[nodiscard]] std::string kind_meant(const json::Value& value, const std::vector<std::string>& kinds,
                                      const std::vector<std::string>& beside = {});
 [[nodiscard]] std::string comparison_meant(const json::Value& value);  // "speed > 0.1"
-// Of a rotation {"x": 0, "y": 90, "z": 0}: the whole fault, or nothing
+// For a rotation {"x": 0, "y": 90, "z": 0}: the whole message, or empty
 [[nodiscard]] std::string angles_meant(const json::Value& value);
 
 }  // namespace tweenfall::document

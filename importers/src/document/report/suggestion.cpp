@@ -56,7 +56,7 @@ std::string component_meant(std::string_view track) {
 std::string suggestion_or_import(std::string_view wrong, const std::vector<std::string>& names) {
   const std::size_t slash = wrong.find('/');
   if (slash == std::string_view::npos) {
-    // The bare name of what an import brought.
+    // A name from an import, without the import's name.
     const auto bare = [&](const std::string& name) {
       const std::size_t last = name.rfind('/');
       return last != std::string::npos && std::string_view(name).substr(last + 1) == wrong;

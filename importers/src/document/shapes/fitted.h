@@ -17,7 +17,7 @@ struct FittedFields {
   std::vector<Vec3> points;  // of the mesh
 };
 
-// A field of `solid`, of which `meaning` tells.
+// The meaning of a field of `solid`.
 template <class SolidKind>
 [[nodiscard]] fields::Meaning<FittedFields<SolidKind>> of_solid(
     std::function<void(const json::Value&, SolidKind&, Building&)> read) {
@@ -36,7 +36,7 @@ template <class SolidKind>
   return {"mesh", &ValueForms::name, "instead: fitted to this imported node or file", mesh};
 }
 
-// A shape of those fields; `around` fits it to points.
+// A shape with those fields; `around` fits it to points.
 template <class SolidKind>
 [[nodiscard]] ShapeRow fitted_or_sized(std::string word, std::string help,
                                        const fields::Table<FittedFields<SolidKind>>& table, fields::FormOf form,

@@ -11,7 +11,7 @@ namespace tweenfall::document::shapes {
 
 namespace {
 
-// With the places of its vertices changed by poses, the last one first; what is mirrored runs the other way around.
+// Appends a mesh transformed by poses, the last one first; mirrored triangles are reversed.
 void append_posed(SurfaceMesh& all, const Mesh& mesh, const std::vector<Pose>& poses) {
   const auto first = static_cast<std::uint32_t>(all.positions.size());
   bool mirrored = false;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Points that a convex hull is made of, or that draw a line to carry along another.
+// Points of a convex hull, or of a line that is swept along another.
 
 #include <tweenfall/curves/curve.h>
 
@@ -11,15 +11,15 @@
 
 namespace tweenfall::document::shapes {
 
-// None at all where one of them is faulty.
+// Empty where one of them is faulty.
 [[nodiscard]] std::vector<Vec2> points_2(const json::Value& list);
 [[nodiscard]] std::vector<Vec3> points_3(const json::Value& list);
 
-// Straight from point to point.
+// Straight lines from point to point.
 [[nodiscard]] Curve<Vec2> polyline(const std::vector<Vec2>& points);
 [[nodiscard]] Curve<Vec3> polyline(const std::vector<Vec3>& points);
 
-// What `make` makes; what it throws is told at the place.
+// The solid that `make` makes; if it throws, that is reported at the place.
 template <class Make>
 [[nodiscard]] std::optional<Solid> solid_or_problem(const json::Value& at, Problems& problems, Make make) {
   try {
@@ -30,7 +30,7 @@ template <class Make>
   }
 }
 
-// The hull of what `make` makes.
+// The hull of the points that `make` makes.
 template <class Make>
 [[nodiscard]] std::optional<Solid> hull_or_problem(const json::Value& at, Problems& problems, Make make) {
   return solid_or_problem(at, problems, [&]() -> Solid { return Hull{ConvexHull(make())}; });

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-// Every shape there is: the functions in the files of these names. A mesh or a height field is no part of a compound.
+// All shapes: the functions in the files of these names. A mesh or a height field cannot be a part of a compound.
 #define TWEENFALL_SINGLE_SHAPES(one)                                                                             \
   one(sphere) one(box) one(capsule) one(tapered_capsule) one(cylinder) one(cone) one(plane) one(hull) one(lathe) \
       one(sweep)

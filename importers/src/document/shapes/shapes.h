@@ -1,6 +1,6 @@
 #pragma once
 
-// The shape of a body: each kind in a file of its own, which holds its word, its form and its reader.
+// The shape of a body: each kind has a file of its own, with its word, its form and its reader.
 
 #include <tweenfall/physics/shape.h>
 
@@ -12,10 +12,11 @@
 
 namespace tweenfall::document::shapes {
 
-// A shape is a field of a body's "shape", of which one is given. What is fitted to a mesh has a place on its node, too.
+// A shape is a field of a body's "shape", which has exactly one. A shape fitted to a mesh also has a place on its node.
 using ShapeRow = fields::Row<Shape>;
 
-// A shape whose fields are those of a table; `solid_of` makes the solid of what was read, or notes why there is none.
+// A shape whose fields are those of a table; `solid_of` makes the solid from what was read, or reports why there is
+// none.
 template <class Thing, class SolidOf>
 [[nodiscard]] ShapeRow shape_of(std::string word, std::string help, const fields::Table<Thing>& table,
                                 SolidOf solid_of) {
@@ -37,7 +38,7 @@ template <class Thing>
 const Form* single_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] Shape read_single(const json::Value& shape, Building& building);
 
-// Puts a shape elsewhere: `place`, as the document says, of what has its own place on the node already.
+// Moves a shape by `place` from the document, relative to the place on the node that it may have already.
 void put(Shape& shape, const Pose& place);
 
 // A body's "shape"

@@ -106,7 +106,7 @@ const fields::Table<SoftBoxSettings>& volume_table() {
   return table;
 }
 
-// A kind, which `make` makes of what its table has read.
+// A kind, made by `make` from the settings read.
 template <class Settings, class Make>
 fields::Row<Read> kind(std::string name, const fields::Table<Settings>& table, Make make, std::string help) {
   const auto read = [&table, make](const json::Value& value, Read& out, Building& building) {

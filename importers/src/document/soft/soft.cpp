@@ -144,7 +144,7 @@ void read_sub_step(const json::Value& value, Read& read, Building&) {
   read.described.soft.sub_step = 1 / parts;
 }
 
-// What a soft body says beside its kind
+// The fields of a soft body beside its kind
 std::vector<fields::Row<Read>> own_rows() {
   const auto of_soft = [](auto SoftSettings::*part) {
     return [part](Read & read) -> auto& {
@@ -218,7 +218,7 @@ void read(const json::Value& value, Building& building) {
     read.described.name = member.name;
     const std::size_t before = building.problems.size();
     soft_table().read(member.value, read, building);
-    // Of a kind that could not be made there is nothing to add.
+    // If the kind could not be made there is nothing to add.
     if (!read.kind || building.problems.size() > before) continue;
     building.stage.softs.push_back(std::move(read.described));
   }

@@ -6,14 +6,14 @@
 
 namespace tweenfall::document::soft {
 
-// Which nodes of a soft body its words stand for.
+// The nodes of a soft body for the words "start" and "end".
 struct Sides {
   std::vector<std::uint32_t> start, end;
 };
 
 struct SoftBeingRead {
   SoftDescription described;
-  json::Value kind;  // where it is said what it is
+  json::Value kind;  // the value of its kind
   Sides sides;
 };
 

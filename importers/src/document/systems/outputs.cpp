@@ -76,7 +76,7 @@ TrackCurve track_curve_of(const FirstOrderPath& path, const Columns& columns) {
   }
 }
 
-// How many numbers a property takes: 0 for any; what cannot be led is told.
+// How many numbers a property takes: 0 for any; properties that cannot be driven are reported.
 std::optional<std::size_t> numbers_of(const json::Member& track, const std::string& property, Problems& problems) {
   if (property == "rotation" || property == "color" || property == "weights") {
     problems.add_name(track, "a system drives numbers: of \"" + property + "\" " +
@@ -130,7 +130,7 @@ std::optional<Track> track_of(const json::Member& member, const ExpressionSystem
   }
 }
 
-// Tracks of the state itself, on a node of the system's name.
+// Adds tracks of the state itself, on a node with the system's name.
 void show_state(const ExpressionSystem& system, const FirstOrderPath& path, Clip& clip) {
   const auto add = [&](const std::string& name, const Expression& expression) {
     clip.tracks.push_back({.node = system.name,

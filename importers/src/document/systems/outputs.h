@@ -1,6 +1,6 @@
 #pragma once
 
-// From a system's way to the tracks of a clip.
+// Makes the tracks of a clip from the path of a system.
 
 #include <tweenfall/physics/expression_system.h>
 
@@ -13,7 +13,7 @@
 
 namespace tweenfall::document::systems {
 
-// A system being read, with what waits until its state is known.
+// A system being read, with the values that are read when its state is known.
 struct Draft {
   ExpressionSystem system;
   json::Value state{}, rates{}, parameters{}, energy{}, starts{}, portrait{}, tracks{};
@@ -22,9 +22,9 @@ struct Draft {
 // Expressions of t and a state.
 class Expressions {
  public:
-  // Parameters that cannot be are told.
+  // Invalid parameters are reported.
   Expressions(std::span<const std::string> variables, const json::Value& parameters, Problems& problems);
-  // Of a text or a number; a fault is told at its place.
+  // The expression of a text or a number; a fault is reported at its place.
   [[nodiscard]] std::optional<Expression> read(const json::Value& value) const;
 
  private:
@@ -33,10 +33,10 @@ class Expressions {
   Problems& problems_;
 };
 
-// Nodes that the tracks name: made where names are free, else looked for.
+// The nodes that the tracks name: made if names are free, else looked up.
 void take_track_nodes(const json::Value& tracks, Building& building);
 
-// Without tracks of its own, and where names are free, a clip shows the state.
+// Without tracks of its own, and if names are free, the clip shows the state.
 [[nodiscard]] Clip clip_of(const Draft& draft, const FirstOrderPath& path, const Expressions& expressions,
                            Building& building);
 

@@ -93,7 +93,7 @@ const Table& table() {
   return rows;
 }
 
-// The numbers of a start by the names of the state; false where there is another.
+// Reads the numbers of a start by the names of the state; false where there is an unknown name.
 bool take_numbers(const json::Value& value, const ExpressionSystem& system, std::vector<double>& numbers,
                   Problems& problems) {
   const std::size_t before = problems.size();
@@ -170,7 +170,7 @@ void take_portrait(const Draft& draft, ExpressionSystem& system, Problems& probl
   }
 }
 
-// What goes wrong on the way.
+// Reports a path that ends too early.
 bool check_way(const json::Value& value, const ExpressionSystem& system, const FirstOrderPath& path,
                Problems& problems) {
   if (path.times.back() + 0.5 * system.step >= system.duration) return true;

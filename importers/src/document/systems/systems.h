@@ -1,6 +1,6 @@
 #pragma once
 
-// The systems of first order of a document, by name: each is a clip of what follows from its state.
+// The first-order systems of a document, by name: each becomes a clip of its solution.
 
 #include "document/content.h"
 #include "document/grammar/grammar_parts.h"
@@ -8,7 +8,7 @@
 namespace tweenfall::document::systems {
 
 const Form* form(FormStore& store, const ValueForms& values);
-// When nodes and clips are known.
+// Call when nodes and clips are known.
 void read(const json::Value& value, Building& building);
 
 }  // namespace tweenfall::document::systems

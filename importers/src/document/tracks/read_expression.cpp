@@ -22,7 +22,7 @@ class ExpressionReader {
     for (const json::Member& each : parameters.members()) {
       if (!each.value.is(Kind::number)) continue;
       const Expression::Parameter one{std::string(each.name), each.value.number()};
-      // Names that expressions have already are found by an expression that has nothing else.
+      // A trial expression finds names that expressions already have.
       try {
         (void)Expression("t", std::span<const Expression::Parameter>(&one, 1));
         parameters_.push_back(one);
@@ -58,7 +58,7 @@ Curve<T> vector_of_parts(const std::vector<Curve<double>>& parts) {
 }  // namespace
 
 void add_fault_of_expression(const json::Value& text, const ExpressionError& fault, Problems& problems) {
-  // One byte of the text is one of the file, but for the quote before it, as long as none is escaped.
+  // Without escapes, bytes of the text correspond to bytes of the file after the quote.
   const bool plain = text.length() == text.text().size() + 2;
   problems.add(plain ? json::Fault{text.offset() + 1 + fault.place(), 1, fault.fault()}
                      : json::Fault{text.offset(), text.length(), fault.what()});

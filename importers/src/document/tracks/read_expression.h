@@ -1,6 +1,6 @@
 #pragma once
 
-// Expressions of t, from their checked texts.
+// Expressions of t from checked texts.
 
 #include <tweenfall/anim/track.h>
 #include <tweenfall/curves/expression.h>
@@ -12,10 +12,10 @@
 namespace tweenfall::document {
 
 // The curve of a track's "expression", with its "parameters": a number for one text, a vector for a list.
-// Empty where it is faulty, which then is noted at the place within the text.
+// Empty where it is faulty, which is reported at the place within the text.
 [[nodiscard]] std::optional<TrackCurve> read_expression(const json::Value& track, Problems& problems);
 
-// What is wrong with an expression, at its place within the text.
+// Reports a fault of an expression at its place within the text.
 void add_fault_of_expression(const json::Value& text, const ExpressionError& fault, Problems& problems);
 
 }  // namespace tweenfall::document

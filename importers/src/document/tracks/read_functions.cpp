@@ -49,7 +49,7 @@ Curve<double> spring_of(const json::Value& settings, double unit) {
                         .goal_velocity = unit * number_in(settings, "goal_velocity", 0)});
 }
 
-// Each component swings by itself.
+// Each component oscillates independently.
 Curve<Vec3> vector_spring_of(const json::Value& settings) {
   const Vec3 none(0, 0, 0);
   const Vec3 from = vector_in(settings, "from", none), velocity = vector_in(settings, "velocity", none);
@@ -175,7 +175,7 @@ std::optional<TrackCurve> function_of(const json::Value& track, Problems& proble
   return read_expression(track, problems);
 }
 
-// What `make` makes; a number that the function does not take is told at its settings.
+// The result of `make`; a number that the function refuses is reported at its settings.
 template <class Make>
 auto guarded(const json::Value& track, Problems& problems, const Make& make) -> decltype(make()) {
   try {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Functions that stand in place of keys, and what happens outside keys.
+// Functions in place of keys, and the rules outside keys.
 
 #include <tweenfall/anim/track.h>
 #include <tweenfall/curves/keys.h>
@@ -12,16 +12,16 @@
 
 namespace tweenfall::document {
 
-// What a track has instead of keys.
+// Whether a track has a function instead of keys.
 [[nodiscard]] bool has_function(const json::Value& track);
 
-// Such a track's curve: a number, or a vector. Empty where it is faulty, which then is noted.
+// The curve of such a track: a number or a vector. Empty where it is faulty, which is reported.
 [[nodiscard]] std::optional<TrackCurve> read_function(const json::Value& track, Problems& problems);
 
 // The same for an angle about an axis, in radians.
 [[nodiscard]] std::optional<Curve<double>> read_angle_function(const json::Value& track, Problems& problems);
 
-// A slope in the value's unit per second; one number is for all parts.
+// A slope in the value's unit per second; a single number is for all parts.
 template <class R>
 [[nodiscard]] R slope_of(const json::Value& slope) {
   if constexpr (std::is_same_v<R, double>) {
@@ -34,7 +34,7 @@ template <class R>
   }
 }
 
-// What stands at "before" or "after".
+// The value of "before" or "after".
 struct OutsideParts {
   Outside rule = Outside::hold;
   double plays = 0;

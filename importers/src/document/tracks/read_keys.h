@@ -1,6 +1,6 @@
 #pragma once
 
-// Keys of one type of value, from their checked trees.
+// Keys of one type of value, from checked trees.
 
 #include <tweenfall/curves/keys.h>
 
@@ -13,18 +13,18 @@
 
 namespace tweenfall::document {
 
-// How values and rates of one kind are read; both give nothing for what is faulty. Rates may need the key's value.
+// How values and rates of one kind are read; both return empty for faulty ones. Rates may need the key's value.
 template <class T>
 struct KeyReader {
   std::function<std::optional<T>(const json::Value&)> value;
   std::function<std::optional<Rate<T>>(const json::Value& rate, const T& value)> rate;
-  double unit = 1;                                     // what slopes written in an ease are multiplied by
+  double unit = 1;                                     // factor for slopes written in an ease
   std::function<Turn(const json::Value& key)> turn{};  // rotations only
 };
 
 [[nodiscard]] TangentKind tangent_kind_of(std::string_view word);
 
-// `options` with what the track says of handles and ends.
+// `options` with the track's settings for handles and ends.
 [[nodiscard]] KeyOptions key_options_of(const json::Value& track, KeyOptions options = {});
 
 template <class T>
@@ -52,7 +52,7 @@ std::optional<Tangent<T>> read_tangent(json::Value tangent, const T& value, cons
   return out;
 }
 
-// The curve through the keys; nothing where one of them is faulty.
+// The curve through the keys; empty where one of them is faulty.
 template <class T>
 std::optional<Curve<T>> read_keys(const json::Value& list, const ClipTimes& times, const KeyReader<T>& reader,
                                   const KeyOptions& options, Problems& problems) {

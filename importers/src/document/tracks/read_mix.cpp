@@ -10,7 +10,7 @@ namespace tweenfall::document {
 
 namespace {
 
-// Flat: as thick as ever.
+// Extends factors of x and y by a constant factor of 1 for z.
 Curve<Vec3> of_a_plane(const Curve<Vec2>& factors) {
   const auto widened = [](const Vec2& v, double z) { return Vec3(v.x(), v.y(), z); };
   constexpr double endless = std::numeric_limits<double>::infinity();

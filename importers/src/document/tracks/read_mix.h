@@ -1,6 +1,6 @@
 #pragma once
 
-// Tracks that are made of tracks of numbers: mixes of values by weights, and aspect ratios.
+// Tracks made from tracks of numbers: mixes of values by weights, and aspect ratios.
 
 #include <tweenfall/curves/curve.h>
 
@@ -16,7 +16,7 @@ namespace tweenfall::document {
 [[nodiscard]] std::optional<Curve<double>> read_numbers(const json::Value& track, const ClipTimes& times,
                                                         Problems& problems);
 
-// The weights of "barycentric", one for each of its values; nothing where they are faulty, which then is noted.
+// The weights of "barycentric", one for each of its values; empty where they are faulty, which is reported.
 [[nodiscard]] std::optional<std::vector<Curve<double>>> read_mix_weights(const json::Value& mix, const ClipTimes& times,
                                                                          Problems& problems);
 

@@ -113,7 +113,7 @@ std::optional<modifiers::Kind> kind_of(const json::Value& modifier, Problems& pr
   return {};
 }
 
-// Modifiers of `list`; `check` throws for one that cannot be. Nothing where one is faulty.
+// The modifiers of `list`; `check` throws for an invalid one. Empty where one is faulty.
 template <class Check>
 std::optional<std::vector<Modifier>> modifiers_in(const json::Value& list, const Check& check, Problems& problems) {
   std::vector<Modifier> modifiers;

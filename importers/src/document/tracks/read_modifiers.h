@@ -10,7 +10,7 @@
 
 namespace tweenfall::document {
 
-// The curve (of double, Vec2, Vec3 or Vec4) with the track's "modifiers" over it, if it has any; nothing where one of
+// The curve (of double, Vec2, Vec3 or Vec4) with the track's "modifiers" over it, if it has any; empty where one of
 // them is faulty.
 template <class T>
 [[nodiscard]] std::optional<Curve<T>> with_modifiers_of(const json::Value& track, const Curve<T>& curve,

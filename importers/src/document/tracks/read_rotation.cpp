@@ -24,7 +24,7 @@ Vec3 in_radians(const Vec3& angles) {
   return {radians(angles[0]), radians(angles[1]), radians(angles[2])};
 }
 
-// Angular velocity that each angle's rate adds: the axes of the three turns where the angles stand.
+// The angular velocity per rate of each angle: the axes of the three turns at these angles.
 Mat3 turn_axes(const Vec3& angles, const EulerOrder& order) {
   Mat3 axes;
   Quat before(1, 0, 0, 0);
@@ -66,7 +66,7 @@ class RotationTrack {
     return in_quaternions(text_in(track_, "turn") == "long");
   }
 
-  /// The angle alone, of plain degrees.
+  /// Only the angle, from plain degrees.
   std::optional<Curve<double>> read_angle() {
     std::optional<Curve<double>> angle;
     if (const json::Value mix = usable(track_, "barycentric"))
@@ -107,7 +107,7 @@ class RotationTrack {
     return barycentric_curve<Quat>(*values, *weights);
   }
 
-  // Modifiers speak of degrees.
+  // Modifiers are in degrees.
   template <class T>
   std::optional<Curve<T>> with_modifiers(const Curve<T>& angle) {
     const auto scaled = [](const Curve<T>& curve, double factor) {
@@ -183,7 +183,7 @@ class RotationTrack {
     return turned ? std::optional(euler_curve(*turned, order)) : std::nullopt;
   }
 
-  // Turns about one axis keep their full turns; about different ones they are rotations like any other.
+  // Angles about a common axis keep full turns; about different axes they are ordinary rotations.
   std::optional<Curve<Quat>> in_axis_angle() {
     const json::Value first = usable(key_parts(list_.items().front()).value, "axis");
     std::optional<Vec3> axis = first ? axis_of(first, problems_) : std::nullopt;
@@ -227,7 +227,7 @@ class RotationTrack {
     return with_outside_of(track_, *curve);
   }
 
-  // The way to the next key: as the key says, else as the track does.
+  // The way to the next key: as stated by the key, or else by the track.
   Turn turn_of(const json::Value& key, bool long_way) {
     Turn turn{long_way ? Turn::Way::longer : Turn::Way::shorter};
     const json::Value said = key.is(Kind::object) ? usable(key, "turn") : json::Value();

@@ -8,7 +8,7 @@
 
 namespace tweenfall::document {
 
-// `track` is a list of keys or an object. Nothing where faulty.
+// `track` is a list of keys or an object. Empty where faulty.
 [[nodiscard]] std::optional<Curve<Quat>> read_rotation_track(const json::Value& track, const ClipTimes& times,
                                                              Problems& problems);
 

@@ -9,7 +9,7 @@ namespace tweenfall::document {
 
 namespace {
 
-// Nothing where one of them is faulty.
+// Empty where one of them is faulty.
 std::vector<Quat> rotations_in(const json::Value& settings, Problems& problems) {
   std::vector<Quat> result;
   for (const json::Value& each : usable(settings, "points").items()) {

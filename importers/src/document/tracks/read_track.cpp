@@ -83,7 +83,7 @@ class TrackReader {
   std::optional<TrackCurve> function(const std::string& property) {
     std::optional<TrackCurve> curve = read_function(track_, problems_);
     if (!curve) return {};
-    // One number is for all three axes.
+    // A single number is for all three axes.
     if (property == "scale" && std::holds_alternative<Curve<double>>(*curve)) {
       const Curve<double> factor = std::get<Curve<double>>(*curve);
       curve = parametric(factor, factor, factor);
@@ -261,7 +261,7 @@ class TrackReader {
   Problems& problems_;
 };
 
-// What a curve refuses only when all its parts are together is told of the track.
+// Faults that a curve finds only when all its parts are together are reported for the track.
 std::optional<TrackCurve> read_curve(const json::Value& track, const std::string& property, const ClipTimes& times,
                                      Problems& problems) {
   try {
@@ -272,8 +272,9 @@ std::optional<TrackCurve> read_curve(const json::Value& track, const std::string
   }
 }
 
-// How the track says that its curve goes on, from which time on: by the word of what it says nothing of, too. Modifiers
-// change both times and ways, so that what the keys say is then no longer so; steps have one way alone.
+// The track's words for how its curve leaves its keys, each with the time from which it applies; defaults are included.
+// Empty with modifiers, which change times and values so that the words no longer apply, and for steps, which have no
+// choice.
 std::vector<std::pair<double, std::string>> words_of(const json::Value& track, const TrackCurve& curve,
                                                      const ClipTimes& times) {
   std::vector<std::pair<double, std::string>> words;

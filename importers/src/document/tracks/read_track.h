@@ -1,6 +1,6 @@
 #pragma once
 
-// Tracks and clips, from their checked trees.
+// Tracks and clips from checked trees.
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/curves/keys.h>
@@ -13,7 +13,7 @@
 
 namespace tweenfall::document {
 
-// Empty where the track is faulty, which then is noted.
+// Empty where the track is faulty, which is reported.
 [[nodiscard]] std::optional<Track> read_track(const json::Member& track, const ClipTimes& times, Problems& problems);
 
 [[nodiscard]] Clip read_clip(const json::Member& clip, std::optional<double> fps, Problems& problems);
@@ -22,8 +22,8 @@ namespace tweenfall::document {
 [[nodiscard]] std::optional<Curve<double>> read_plain_keys(const json::Value& keys, Problems& problems);
 
 // Keys of one number on the clock of a play or of the stage, which has no end.
-// @param number  what each of them may be
-// @param from    time that is 0 for the play, s
+// @param number the form of each number
+// @param from time at which the play's time is 0, s
 [[nodiscard]] std::optional<Curve<double>> read_play_keys(const json::Value& keys, std::optional<double> fps,
                                                           const Form& number, double from, Problems& problems);
 

@@ -17,7 +17,7 @@ namespace tweenfall::document {
 
 namespace {
 
-// One JSON object or list in the making.
+// One JSON object or list being written.
 class Parts {
  public:
   explicit Parts(char open) : text_(1, open), close_(open == '{' ? '}' : ']') {}
@@ -89,10 +89,10 @@ double difference(const Vector& a, const Vector& b) {
   return (a - b).cwiseAbs().maxCoeff();
 }
 
-// How a stretch of a curve is said in a document.
+// How a stretch of a curve is written in a document.
 enum class Stretch { hold, linear, cubic };
 
-// One stretch between two knots, as the document can say it.
+// One stretch between two knots in the form of the document.
 struct Piece {
   double start, end;
   Stretch stretch;
@@ -107,7 +107,7 @@ bool plain(const RotationSpan& span, int degree) {
          span.spin.isZero(0);
 }
 
-// Whether a cubic with the span's values and rates at its ends is the span.
+// Whether the span is the cubic through its values and rates at its ends.
 template <class T>
 bool is_cubic(const Span<T>& span) {
   return plain(span, 3);
@@ -116,12 +116,12 @@ bool is_cubic(const RotationSpan&) {
   return false;
 }
 
-// Stretches that no key can say are cut so fine that cubics with their exact rates pass for them.
+// Stretches that no key can express are cut finely, so that cubics with exact rates approximate them.
 constexpr int fewest_cuts = 4;
 constexpr double most_cuts = 256, most_cuts_of_long = 4096, cuts_per_second = 60;
 constexpr double allowed_miss = 1e-7;  // of a value, or a quaternion's part
 
-// How far the cubic between two times is from the curve in its middle.
+// The distance of the cubic between two times from the curve, in the middle.
 template <class T>
 double miss(const Curve<T>& curve, double start, double end) {
   const auto key = [&](double time, Side side) {
@@ -136,7 +136,7 @@ double miss(const Curve<T>& curve, double start, double end) {
 
 template <class T>
 int cuts_of(const Curve<T>& curve, double start, double end) {
-  // However long it lasts: a key that strayed to the year 30,000 makes no document of a terabyte.
+  // Limited for any duration, so that a stray key in the year 30,000 does not make a document of a terabyte.
   const double most = std::clamp((end - start) * cuts_per_second, most_cuts, most_cuts_of_long);
   for (int count = fewest_cuts;; count *= 2) {
     if (count >= most) return count;
@@ -170,7 +170,7 @@ std::vector<Piece> pieces_of(const Curve<T>& curve) {
   }
   const auto knots = curve.knots();
   if (spans.empty() && std::isfinite(curve.start()) && std::isfinite(curve.end())) {
-    // A formula is smooth between its knots alone.
+    // A formula is only smooth between its knots.
     std::vector<double> ends{curve.start()};
     for (const double knot : knots)
       if (knot > ends.back() && knot < curve.end()) ends.push_back(knot);
@@ -201,7 +201,7 @@ bool same_value(const Vector& a, const Vector& b) {
   return (a - b).cwiseAbs().maxCoeff() <= 1e-12 * std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
 }
 
-// The key at one knot, between the stretch that arrives and the one that leaves; `value` and `rate` tell both sides.
+// The key at one knot, between the stretch that arrives and the one that leaves; `value` and `rate` give both sides.
 template <class ValueAt, class RateAt>
 std::string key_json(double time, const Piece* arriving, const Piece* leaving, bool jumps, const ValueAt& value,
                      const RateAt& rate) {
@@ -320,7 +320,7 @@ std::string track_json(const Track& track) {
   return out.whole();
 }
 
-// Names that a document can hold, each once.
+// Makes names unique and valid for a document.
 class Names {
  public:
   std::string unique(const std::string& wanted, const std::string& nameless) {

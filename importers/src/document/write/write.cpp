@@ -14,7 +14,7 @@ using Kind = json::Value::Kind;
 
 constexpr std::size_t line_width = 110;
 
-// A part of a list or an object as it is written, with its form where it has one.
+// A part of a list or an object to be written, with its form if it has one.
 struct Part {
   std::string_view name;  // of a member
   json::Value value;
@@ -25,13 +25,13 @@ struct Part {
 struct Written {
   json::Value value;
   const Form* form = nullptr;  // as it was resolved
-  char open = 0;               // '[' or '{'; 0 for what has no parts
+  char open = 0;               // '[' or '{'; 0 if it has no parts
   std::vector<Part> parts{};
 };
 
 Written written(const Form* form, const json::Value& value);
 
-// Its text on one line as far as it fits into `most` bytes; longer where it does not.
+// Appends its text on one line; stops once that is longer than `most` bytes.
 void append_line(std::string& out, const Written& what, std::size_t most) {
   if (what.open == 0) {
     out += json::on_one_line(what.value);
@@ -54,7 +54,7 @@ std::string line_of(const Written& what, std::size_t most) {
   return out;
 }
 
-// Whether a member says what its absence means.
+// Whether a member has its default value.
 bool says_nothing(const Field& field, const json::Value& value) {
   if (field.required || field.standard.empty()) return false;
   const std::string line = line_of(written(field.form, value), field.standard.size() + 2);
@@ -71,15 +71,15 @@ Written of_list(const Form& form, const json::Value& value) {
     out.parts.push_back({{}, item, below});
     ++i;
   }
-  // The third of a key is its ease.
+  // The third element of a key is its ease.
   if (form.kind == Form::Kind::tuple && out.parts.size() == 3 && form.parts[2]->definition == "ease" &&
       out.parts[2].value.text() == "smooth-clamped")
     out.parts.pop_back();
   return out;
 }
 
-// Members that only stand for one thing give way to that thing: a key of time, value and ease is a row, a track of
-// keys alone is its keys.
+// Objects are replaced by a shorter form where one exists: a key of time, value and ease by a row, a track with only
+// keys by its keys.
 Written shorter(const Form& form, Written object) {
   const auto has_only = [&](std::initializer_list<std::string_view> names) {
     for (const Part& part : object.parts) {

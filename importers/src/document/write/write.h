@@ -8,8 +8,8 @@
 
 namespace tweenfall::document {
 
-// Two spaces, one key a line, what says the default left out, one way to say a thing. Comments are gone. Writing what
-// was read from this text gives this text.
+// Two spaces, one key per line, defaults left out, one spelling for each thing. Comments are lost. Reading this text
+// and writing it again gives the same text.
 [[nodiscard]] std::string write(const Form& form, const json::Value& value);
 
 }  // namespace tweenfall::document
