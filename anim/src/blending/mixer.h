@@ -49,8 +49,7 @@ class Mixer {
   std::size_t count_ = 0;
 };
 
-/// Adds all values with a weight to the mixer: `weight(i)` and `value(i)` of each, and the rest with the weight missing
-/// to the least.
+/// Adds all values with a weight to the mixer: `weight(i)` and `value(i)` of each, and the rest, up to `least`.
 /// @return false where all weights are zero
 template <class M, class Weight, class Get, class Rest>
 [[nodiscard]] bool fill(M& mixer, std::size_t count, const Weight& weight, const Get& value, const Rest& rest,

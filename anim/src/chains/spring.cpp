@@ -31,9 +31,8 @@ struct Series {
   }
 };
 
-// exp of a moving vector. With x = |r|^2, b = (1 - cos |r|) / x and c = (1 - sin |r| / |r|) / x, it turns with
-// r' + b r x r' + c r x (r x r'): the left Jacobian, from the source of `right_jacobian`; the acceleration is its
-// derivative.
+// exp of a moving vector. With x = |r|^2, b = (1 - cos |r|) / x and c = (1 - sin |r| / |r|) / x, it turns with r' + b r
+// x r' + c r x (r x r'): the left Jacobian, from the source of `right_jacobian`; the acceleration is its derivative.
 Sample<Quat> exponential(const Sample<Vec3>& r) noexcept {
   const double x = r.value.squaredNorm(), x_rate = 2 * r.value.dot(r.rate);
   double b = 0, c = 0, b_slope = 0, c_slope = 0;

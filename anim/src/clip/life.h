@@ -20,8 +20,7 @@ struct Rounds {
   double length = 0;  ///< of one round, s; may be infinite
   LoopMode mode = LoopMode::once;
   bool reverse = false;
-  double left_out = 0;  ///< rounds before phase 0: an even number, nonzero only for very many, so that no digits are
-                        ///< lost
+  double left_out = 0;  ///< rounds before phase 0: even, and 0 unless there are very many, so that no digits are lost
   double counted = 0;   ///< rounds from phase 0 on, where they are counted
   double low = 0, total = 0;
   bool lands = false;  ///< its end is that of the clip, where the clip jumps to its last keys

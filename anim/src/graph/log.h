@@ -155,8 +155,7 @@ struct Sight {
 /// A log with only the inputs of the description.
 [[nodiscard]] Log fresh_log(const GraphDescription& description, const LogSizes& sizes);
 
-/// Discards the offsets of all passages except the last few hundred. @param all also of those before which they were
-/// discarded already
+/// Discards the offsets of all but the last few hundred passages. @param all also those discarded before
 void let_go(Record<Passage>& passages, bool all);
 
 /// Adds an input in order of time, after existing ones of the same time.

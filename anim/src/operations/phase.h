@@ -35,11 +35,10 @@ class SpaceWeights {
 };
 
 /// The phase runs from the start of the state around it, with the first clip at its beginning. It stops at every
-/// setting and, while weights change continuously, 480 times per second, so that the result does not depend on the
-/// times sampled. Within a step, shares are cubics from their values and rates at its ends, so that the rate is exactly
-/// the derivative of the value. A setting within a step cuts it short; if the phase ran faster there than the weights
-/// say, for example because a weight kinks, the excess decays until the planned end of the step, so the rate does not
-/// jump.
+/// setting and, while weights change continuously, 480 times per second, so that results do not depend on the times
+/// sampled. Within a step, shares are cubics from their values and rates at its ends, so that the rate is exactly the
+/// derivative of the value. A setting within a step cuts it short; if the phase ran faster there than the weights say,
+/// as where a weight kinks, the excess decays until the planned end of the step, so the rate does not jump.
 class Phase {
  public:
   /// @param number index among the phases of the graph

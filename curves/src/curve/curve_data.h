@@ -81,14 +81,12 @@ struct Curve<T>::Data {
   // The value and the rate at each knot, where all spans are the cubics through them. They replace the pool and take
   // half of its room; curves of numbers, which are sampled most often, always have a pool.
   std::vector<Row> passed;
-  // Values on arrival, one for each span; only the last one where every span arrives at the value with which the next
-  // starts.
+  // Values on arrival, one for each span; only the last one where every span ends where the next starts.
   std::vector<T> ends;
   std::vector<Warp> warps;  // empty, or one for each span
 
-  // Rotations only: the rotation that the exponential multiplies, one for each span; and, where all spans are
-  // exponentials of the same degree without warp or spin, their rows: three numbers each, from the first power on, in
-  // place of the pool.
+  // Rotations only: the rotations that the exponentials multiply, one per span; and, if all are exponentials of the
+  // same degree without warp or spin, their rows: three numbers each, from the first power on, in place of the pool.
   std::vector<T> starts;
   std::vector<Vec3> turns;
   bool plain_turns = false;
@@ -202,8 +200,7 @@ struct CurveAccess {
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
-  /// A curve that another one is converted into: `formula` holds at all times, and `rebuilt` makes the curve again with
-  /// other rules outside.
+  /// A curve converted from another: `formula` holds at all times; `rebuilt` makes the curve with other rules outside.
   template <class T>
   static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end,
                                const spans::Breaks& breaks, const OutsideRule<T>& before, const OutsideRule<T>& after,

@@ -58,8 +58,7 @@ class SpanTimes {
 
 namespace spans {
 
-/// The times of `knots`, shared by curves that are made one after the other with the same knots, as those of a clip
-/// often are.
+/// The times of `knots`, shared by curves made in succession with the same knots, as in many clips.
 [[nodiscard]] std::shared_ptr<const SpanTimes> shared_times(std::span<const double> knots);
 
 }  // namespace spans

@@ -22,8 +22,7 @@ class FitTarget {
   /// @throws std::invalid_argument as `fit` does.
   FitTarget(const Curve<T>& curve, double error, const FitOptions& options);
 
-  /// Whether spans of least squares are tried: for numbers and vectors without conversion, where the options ask for
-  /// it.
+  /// Whether spans of least squares are tried: for numbers and vectors without conversion, if the options say so.
   [[nodiscard]] bool suits() const noexcept { return plain_ && options_.slopes == FitSlopes::least_squares; }
   [[nodiscard]] const Curve<T>& curve() const noexcept { return curve_; }
   /// Times at which one polynomial ends and the next begins, with both ends.

@@ -11,8 +11,7 @@
 
 namespace tweenfall::keying {
 
-/// The slope and weight at both sides of each key, from the tangents that keys state and the slopes that their eases
-/// chose.
+/// The slope and weight at both sides of each key, from the tangents that keys state and the slopes of their eases.
 template <class T>
 class KeyTangents {
  public:

@@ -20,8 +20,7 @@ namespace tweenfall::rotations {
   return signed_log(between);
 }
 
-/// The sum of the weighted rotation vectors from a rotation to others, and the matrix by which a small turn of it
-/// reduces that sum.
+/// The sum of the weighted rotation vectors from a rotation to others, and how a small turn of it reduces that.
 struct Balance {
   Vec3 sum{0, 0, 0};
   Mat3 slope = Mat3::Zero();

@@ -1,7 +1,6 @@
 #pragma once
 
-// Rotations and rotation vectors with the Jacobians that tie their rates together, at the cost of one arc tangent or
-// one sine and cosine.
+// Rotations and rotation vectors with the Jacobians that tie their rates, for one arc tangent or one sine and cosine.
 
 #include <tweenfall/curves/elementary.h>
 #include <tweenfall/curves/rotation.h>

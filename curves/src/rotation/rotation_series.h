@@ -14,8 +14,7 @@ struct RotationSeries {
 /// For squares of angles below this, the functions are computed from their Taylor series in the square.
 inline constexpr double series_limit = 0.5;
 
-/// With x = |r|^2 and t = |r|: cos(t/2), and sin(t/2)/t, the factor from a rotation vector to the vector part of its
-/// quaternion.
+/// With x = |r|^2 and t = |r|: cos(t/2), and sin(t/2)/t, the factor from a rotation vector to its quaternion.
 struct HalfTurn {
   double cosine, sine_share;
 };

@@ -14,9 +14,7 @@ class IOSystem;
 namespace tweenfall::assimp {
 
 /// @param bytes the content of `file`; must outlive the result
-/// @param missing  receives the names of files that assimp requests and does not get, in order; must outlive the
-/// result,
-///                 too
+/// @param missing  receives the names of files requested but not found, in order; must outlive the result
 [[nodiscard]] std::unique_ptr<Assimp::IOSystem> memory_files(const std::string& bytes,
                                                              const std::filesystem::path& file,
                                                              std::vector<std::string>& missing);

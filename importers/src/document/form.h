@@ -81,10 +81,8 @@ struct Form {
   std::function<std::string(std::string_view)> name_fault{};  // what is wrong with such a name, or empty
   // The known name that an author's name may be meant for, or empty
   std::function<std::string(std::string_view)> name_meant{};
-  std::function<std::string(std::string_view)> said_of{};           // "; ..." about a name that is not a field, or
-                                                                    // empty
-  std::function<std::string(const json::Value&)> foremost_fault{};  // a fault that makes all others irrelevant, or
-                                                                    // empty
+  std::function<std::string(std::string_view)> said_of{};           // "; ..." about an unknown name, or empty
+  std::function<std::string(const json::Value&)> foremost_fault{};  // one that makes others irrelevant, or empty
 
   // choice: the first alternative of the value's kind, or the one that `select` names
   std::vector<const Form*> alternatives{};

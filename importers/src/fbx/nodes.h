@@ -24,8 +24,7 @@ struct FileNode {
   std::size_t parent = no_node;  ///< index among the file's nodes
   Inherit inherit = Inherit::normal;
   std::size_t node = no_node;  ///< our node of that name
-  /// Our node with its position and rotation but without its scale, for children that do not inherit it; else the same
-  /// node.
+  /// Our node with its position and rotation but not its scale, for children that do not inherit it; else the same.
   std::size_t frame = no_node;
 };
 

@@ -9,9 +9,8 @@
 /// over what is below with its weight; a weight that changes contributes its own rate, so a
 /// cross-fade's velocity is exact.
 ///
-/// Any number of threads may sample at once; sampling takes no lock and never fails. Plays store nothing; graphs
-/// remember how far they have been evaluated, and allocate memory when a machine passes to another state, or when a
-/// second thread samples meanwhile.
+/// Any number of threads may sample at once, without locks and without failing. Plays store nothing; graphs remember
+/// how far they were evaluated, and allocate when a machine changes its state or a second thread samples meanwhile.
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/hierarchy.h>
@@ -72,8 +71,7 @@ class Animation {
   [[nodiscard]] std::size_t player_named(std::string_view name) const;
 
   // Whole poses
-  /// Local motion of every node at a stage time. @param local written, in the order of the nodes; may be for the first
-  /// nodes only
+  /// Local motion of every node, or of the first ones, at a stage time. @param local written, in order of the nodes
   void sample(double stage_time, std::span<Motion> local, Side side = Side::out,
               const ClockOverride& clock = {}) const noexcept;
 
@@ -95,8 +93,7 @@ class Animation {
   [[nodiscard]] std::span<const GraphDescription> graphs() const noexcept;
   /// Events of the clips that show in graphs, in (from, to], in order, as from `GraphPlayer::events`.
   [[nodiscard]] std::vector<GraphEvent> graph_events(double from, double to) const;
-  /// The first event of a name, not counting ends of intervals. @param node only graphs that move this node; `no_node`:
-  /// all
+  /// The first event of a name, without ends of intervals. @param node only graphs that move this node; `no_node`: all
   [[nodiscard]] std::optional<double> first_graph_event(std::string_view name, std::size_t node, double from,
                                                         double to) const;
   /// A copy of a graph at a time, for inspection: setting something on it affects nothing else.

@@ -53,8 +53,7 @@ inline constexpr double least_weight = 0.1;
 /// The weighted mean of poses: for each joint the weights are divided by their sum, positions and scales are mixed as
 /// vectors, and rotations to the one from which the weighted rotation vectors to all of them sum to zero, as in
 /// `barycentric`. Up to rounding the order does not matter; of two poses it is their cross-fade, and of one it is that
-/// pose, bit for bit, whatever its weight. The rotation is unique while all lie within a quarter turn of a single
-/// rotation.
+/// pose, bit for bit, whatever its weight. The rotation is unique while all lie within a quarter turn of one.
 ///
 /// Where the weights of a joint sum to less than `least`, the rest pose gets the missing weight: a blend goes smoothly
 /// to rest as the last weight fades, and weights that sum to zero give the rest pose itself. With a `least` of 1

@@ -1,7 +1,6 @@
 #pragma once
 
-/// Blend spaces: weights for poses that are placed along a line or on a plane, from the position of a parameter among
-/// them.
+/// Blend spaces: weights for poses placed along a line or on a plane, from the position of a parameter among them.
 ///
 /// A walk at 1.5 m/s, a run at 4 m/s: a parameter of 2 m/s gives each its weight. The parameter carries its rate and
 /// acceleration, and the weights carry theirs, exactly. Weights are 0 to 1, sum to 1 and are continuous everywhere; at
@@ -18,8 +17,7 @@
 
 namespace tweenfall {
 
-/// Entries along a line: two neighbors share the weight, linearly between their places; beyond the ends the last entry
-/// has all of it.
+/// Entries along a line: two neighbors share the weight, linearly between their places; beyond an end it has all.
 class BlendLine {
  public:
   /// @param places  of the entries, in any order and any unit
@@ -73,9 +71,8 @@ class BlendPlane {
 
 /// Entries on a plane that share it by gradient bands: from an entry towards each other one its influence falls
 /// linearly from 1 to 0; the least of these counts, and the weights are the influences divided by their sum. More than
-/// three entries may show at once, two entries are enough, and all may lie on one line; weights change more smoothly
-/// than those of triangles, but do not reproduce the parameter: a blend of speeds does not have exactly the speed that
-/// was requested.
+/// three may show at once, two are enough, and all may lie on one line; weights change more smoothly than those of
+/// triangles, but do not reproduce the parameter: a blend of speeds does not have exactly the speed requested.
 ///
 /// Distances weight both axes equally. Beyond the entries the weights fade to those of the border.
 /// Source: Johansen, "Automated Semi-Procedural Animation for Character Locomotion", 2009, 6.3.

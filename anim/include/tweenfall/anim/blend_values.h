@@ -25,8 +25,7 @@ template <class T>
 [[nodiscard]] Sample<T> add_difference(const Sample<T>& base, const Sample<T>& reference, const Sample<T>& value,
                                        const Sample<double>& weight) noexcept;
 
-/// The weighted mean: weights are divided by their sum, and where that is less than `least`, `rest` gets the missing
-/// weight.
+/// The weighted mean: weights are divided by their sum; where that is below `least`, `rest` gets the missing weight.
 /// @param weights  one for each value, >= 0; negative ones count as 0
 template <class T>
 [[nodiscard]] Sample<T> blend(std::span<const Sample<T>> values, std::span<const Sample<double>> weights,

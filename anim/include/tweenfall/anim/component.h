@@ -33,8 +33,7 @@ struct Component {
 /// The meaning of a track's property such as "position.y"; empty where it is not one of our components.
 [[nodiscard]] std::optional<Component> component_named(std::string_view word) noexcept;
 
-/// The position of the dot after the node in the name of a track, "node.property" or "node.property.component"; npos
-/// without a dot.
+/// The position of the dot after the node in a track's name, "node.property" or "node.property.component"; npos: none.
 [[nodiscard]] std::size_t property_dot(std::string_view track_name) noexcept;
 
 /// Whether an order has one turn about each axis, so that each angle belongs to one axis.
@@ -53,8 +52,7 @@ struct Rivals {
 /// stay as in `rest`. At least one is not null.
 [[nodiscard]] Curve<Quat> turned_by(const std::array<const Track*, 3>& angles, const Quat& rest);
 
-/// The clip with each node's component tracks merged into one track of the whole property; missing numbers are the
-/// node's own.
+/// The clip with each node's component tracks merged into tracks of whole properties; missing numbers are the node's.
 /// @param node_named  the node of that name; null where there is none: its tracks stay as they are
 [[nodiscard]] Clip with_whole_tracks(const Clip& clip, const std::function<const Node*(std::string_view)>& node_named);
 

@@ -22,8 +22,7 @@ namespace tweenfall {
 struct CrowdSettings {
   /// How far a point may be from its place on the exact path, in the space of the figure, m; > 0.
   double tolerance = 1e-4;
-  /// The points measured lie this far from each joint along each of its axes, m; >= 0. Choose the size of what is
-  /// attached to a joint.
+  /// The points measured lie this far from each joint along each axis, m; >= 0. Choose the size of attached things.
   double arm = 0.1;
   /// Use the least memory; sampling then takes half as long again.
   bool smallest = false;

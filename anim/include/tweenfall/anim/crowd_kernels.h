@@ -52,8 +52,7 @@ void add(std::span<const CrowdGroup> base, std::span<const CrowdGroup> differenc
          std::span<CrowdGroup> out, std::span<const float> mask = {}) noexcept;
 
 // Local to world
-/// A transform to the world: the first three rows of a matrix whose last row is 0, 0, 0, 1. The last column is the
-/// origin.
+/// A transform to the world: three rows of a matrix with a fourth row of 0, 0, 0, 1; the last column is the origin.
 struct alignas(16) CrowdMatrix {
   float row[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 };

@@ -2,9 +2,9 @@
 
 /// Feet on uneven ground: a figure scripted to walk on a flat floor stands on slopes, stairs and stones.
 ///
-/// The height of each foot above the script's floor becomes its height above the ground: the pelvis moves so that the
-/// lowest foot can reach, each leg bends, and each foot is aligned with the ground's normal. The caller provides the
-/// ground.
+/// The height of a foot above the script's floor becomes its height above the ground: the pelvis moves so that the
+/// lowest foot can reach, each leg bends, and each foot aligns with the ground's normal.
+/// The caller provides the ground.
 
 #include <tweenfall/anim/two_bone.h>
 
@@ -35,8 +35,7 @@ struct FootPlacementSettings {
   Vec3 up{0, 1, 0};                ///< in the world; any length
   double lowest = 0.5;             ///< how far the pelvis may go down, m
   double highest = 0.5;            ///< how far it may go up, m
-  double evenness = 0;             ///< distance over which one foot takes over from another as the lowest, m; 0:
-                                   ///< abruptly
+  double evenness = 0;             ///< distance over which one foot replaces another as the lowest, m; 0: abruptly
   double tilt = 0.8;               ///< greatest tilt of the feet, rad
   double softness = 0;             ///< of the legs, as in `TwoBoneGoal`
 };

@@ -28,8 +28,7 @@
 
 namespace tweenfall {
 
-/// A parameter: a number that comes from outside. Conditions test the value set; poses see a value that follows it by
-/// `half_life`.
+/// A parameter: a number from outside. Conditions test the value set; poses see a value that follows it by `half_life`.
 struct GraphParameter {
   std::string name;
   double start = 0;                      ///< its value until it is set
@@ -40,15 +39,13 @@ struct GraphParameter {
 /// A user track as the curve of a parameter: as its clip plays it from the graph's start on, loops included.
 /// @param track "node.property", of numbers, or a switch, which counts as 0 or 1
 /// @param clip   empty: the only one that has the track
-/// @throws std::invalid_argument for a track or clip that does not exist, with the nearest name, or a track of another
-///         kind
+/// @throws std::invalid_argument for an unknown track or clip, with the nearest name, or a track of another kind
 [[nodiscard]] Curve<double> track_curve(std::span<const Clip> clips, std::string_view track,
                                         std::string_view clip = {});
 
 // The operations. Poses are given by name: that of another pose of the graph, or of a clip.
 
-/// A clip, played from the time at which the state that shows it was entered, or at which the graph began. Nodes that
-/// it does not drive are as below the graph.
+/// A clip, played from when the state that shows it was entered, or the graph began; other nodes are as below.
 struct ClipPose {
   std::string clip;
   double at = 0;               ///< seconds until it starts
@@ -165,8 +162,7 @@ struct GraphInput {
 };
 
 /// A reaction to an event of a clip, whether the clip shows in the graph or lies below it: sets a parameter or, without
-/// a value, sends another event, at its exact instant. However often the event happens at one instant, the reaction
-/// happens once.
+/// a value, sends another event, at its exact instant. If the event repeats at one instant, it reacts once.
 struct GraphReaction {
   std::string event;
   std::string name;
@@ -220,8 +216,7 @@ struct GraphFault {
 /// instant, which is reported (`GraphPlayer::stops`).
 inline constexpr std::size_t most_transitions_at_once = 32;
 
-/// No more than this many poses of a machine fade into each other; a further change settles instead, over the same
-/// time.
+/// No more than this many poses of a machine fade into each other; a further change settles instead.
 inline constexpr std::size_t most_fades_at_once = 8;
 
 inline constexpr std::size_t most_blended = 32;

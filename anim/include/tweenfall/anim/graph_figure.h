@@ -48,8 +48,7 @@ struct RetargetPose {
 /// If it accumulates, the figure instead travels on from loop to loop and from clip to clip: its path is the sum of the
 /// steps of the clips in the base, mixed by the weights that they have in blends, spaces, layers and machines. Adding,
 /// mirroring or retargeting there does not change the steps. It begins at the clips' own place when the graph, or the
-/// state around it, begins. Loops of one clip are repeated in closed form: ten thousand loops travel exactly ten
-/// thousand times as far as one.
+/// state around it, begins. Loops of one clip are repeated in closed form: ten thousand are exact.
 struct RootMotionPose {
   std::string base{};
   std::string node;

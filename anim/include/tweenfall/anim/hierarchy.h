@@ -112,8 +112,7 @@ class Hierarchy {
   using Names = std::vector<std::uint32_t>;  ///< nodes in order of their names
   std::shared_ptr<Room> room_;
   std::span<const Node> nodes_;                     ///< the first nodes of the room, which are its own
-  std::vector<std::shared_ptr<const Names>> runs_;  ///< together all nodes, the latest last; each run is longer than
-                                                    ///< the next
+  std::vector<std::shared_ptr<const Names>> runs_;  ///< of all nodes, the latest last; each is longer than the next
 };
 
 }  // namespace tweenfall

@@ -35,8 +35,9 @@ struct JiggleState {
 
 class JiggleChain {
  public:
-  /// @throws std::invalid_argument listing what is wrong: a chain of one joint without a tip, nodes that do not exist,
-  ///         or are not each below the one before, settings out of range
+  /// @throws std::invalid_argument listing everything that is wrong: a chain of one joint without a tip, nodes that do
+  ///         not exist in the hierarchy, nodes that are not each below the one before in the chain, and settings that
+  ///         are out of range
   JiggleChain(const Hierarchy& nodes, const JiggleSettings& settings);
 
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }

@@ -2,11 +2,10 @@
 
 /// Clips of different lengths played in phase, so that their footsteps coincide while they are blended.
 ///
-/// Each clip has markers, for example where its feet touch the ground. A phase, common to all, counts markers: at phase
-/// 3 every clip is at its marker number 3, counted around its loop. Between markers a clip's time is a smooth, monotone
-/// function of the phase (a cubic through the markers with continuous rate), so that no clip's speed jumps. Clips
-/// without markers are spread evenly over one round of the others' markers; where no clip has any, the phase counts
-/// loops.
+/// Each clip has markers, for example footfalls. A phase, common to all, counts markers: at phase 3 every clip is at
+/// its marker number 3, counted around its loop. Between markers a clip's time is a smooth, monotone function of the
+/// phase (a cubic through the markers with continuous rate), so that no clip's speed jumps. Clips without markers are
+/// spread evenly over one round of the others' markers; without any markers, the phase counts loops.
 ///
 /// The phase advances so that the clip times advance, averaged by the weights, at one second per second: a clip that
 /// has all the weight runs at exactly its own speed.
@@ -38,8 +37,7 @@ struct SyncClip {
 
 /// The time of a clip.
 struct SyncedTime {
-  Sample<double> time;  ///< clip time, 0 to the duration, s; its rate in clip seconds per second, and its second
-                        ///< derivative
+  Sample<double> time;  ///< clip time, 0 to the duration, s; its rate in clip seconds per second, and acceleration
   double cycle = 0;     ///< which of its loops: time + cycle * duration is continuous
 };
 

@@ -144,8 +144,7 @@ struct FiredEvent {
 /// @param seconds  >= 0
 [[nodiscard]] std::string too_many_events(const Play& play, const Clip& clip, double seconds);
 
-/// The first of these events, not counting ends of intervals: of any name, or of the one given. Its cost does not
-/// depend on how many follow.
+/// The first of these events, not counting ends of intervals: of any or of one name. Fast, however many follow.
 [[nodiscard]] std::optional<FiredEvent> first_event(const Play& play, const Clip& clip, double from, double to,
                                                     bool from_start = false,
                                                     std::optional<std::string_view> name = std::nullopt);

@@ -105,8 +105,7 @@ struct PlayVoice {
   ClipClock clock;
   Sample<double> weight;
 };
-/// All that a play shows at a time, the lowest first: its current clock and, below it while a seek fades, the earlier
-/// ones.
+/// All that a play shows at a time, the lowest first: its clock and, below it while a seek fades, the earlier ones.
 struct PlayVoices {
   static constexpr std::size_t most = 8;  ///< beyond this the oldest is dropped
   std::array<PlayVoice, most> list{};
@@ -137,8 +136,7 @@ class Player {
   [[nodiscard]] ClipClock clock(double time, Side side = Side::out) const noexcept;
   /// The weight with its fades; 0 once it was stopped.
   [[nodiscard]] Sample<double> weight(double time, Side side = Side::out) const noexcept;
-  /// Clock and weight of each pose that shows; there are several while a seek fades. Layered, they have the play's
-  /// weight.
+  /// Clock and weight of each pose that shows, several while a seek fades. Layered, they have the play's weight.
   [[nodiscard]] PlayVoices voices(double time, Side side = Side::out) const noexcept;
   /// Whether it was stopped and has no weight any more.
   [[nodiscard]] bool is_gone(double time, Side side = Side::out) const noexcept;
@@ -153,8 +151,7 @@ class Player {
                                                        bool from_start = false) const;
   [[nodiscard]] std::optional<FiredEvent> first_event(const Clip& clip, double from, double to, bool from_start = false,
                                                       std::optional<std::string_view> name = std::nullopt) const;
-  /// The events that the last change itself fires, at its exact time: those at the time where it starts, and those of
-  /// intervals that a jump enters or leaves.
+  /// The events that the last change itself fires: those where it starts, and ends of intervals that a jump crosses.
   [[nodiscard]] std::vector<FiredEvent> events_of_change(const Clip& clip) const;
   /// Calls `visit` with each event of `events_between` until it returns false.
   void visit_events(const Clip& clip, double from, double to, bool from_start,

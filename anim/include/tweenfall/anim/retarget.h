@@ -5,8 +5,7 @@
 /// A joint of the target turns, in the space of the whole figure, as its source joint turns from rest: its rotation is
 /// that turn applied to its own rotation at rest. Joints without a source keep their rest pose relative to their
 /// parent. Displacements come from the joint that carries the figure, the hips, scaled by the ratio of the two hip
-/// heights; all other joints keep the lengths of their own bones. Scales are those of the target at rest. All rates are
-/// exact.
+/// heights; all other joints keep the lengths of their own bones. Scales are the target's at rest. Rates are exact.
 ///
 /// If the two rest poses differ (arms out, arms down), poses that match are given as stances. Scales of the rest poses
 /// are taken into account if they are uniform.
@@ -23,13 +22,11 @@ namespace tweenfall {
 /// number of `*`); with a pattern, joints that the target lacks are skipped.
 struct RetargetPair {
   std::string source, target;
-  bool moves = false;  ///< its displacement from rest is transferred too, scaled; always so for joints below no other
-                       ///< mapped one
+  bool moves = false;  ///< transfers its scaled displacement from rest too; always for joints below no mapped one
 };
 
 struct RetargetSettings {
-  double scale = 0;       ///< of displacements; 0: the ratio of the hip heights, those of the highest mapped joint that
-                          ///< moves
+  double scale = 0;       ///< of displacements; 0: the ratio of the hip heights, of the highest mapped joint that moves
   Vec3 up{0, 1, 0};       ///< in the source's space; heights are measured along it from the origin
   Quat turn{1, 0, 0, 0};  ///< from the source figure's space to the target figure's
   std::vector<Pose> source_stance{}, target_stance{};  ///< local poses that match each other; empty: the rest poses

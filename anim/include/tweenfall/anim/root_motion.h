@@ -91,8 +91,7 @@ class RootTravel {
 [[nodiscard]] Motion blend_steps(std::span<const Motion> steps, std::span<const Sample<double>> weights) noexcept;
 
 /// A rigid movement repeated `times` times, in closed form: with R the turn by an angle a about an axis and p the
-/// translation, R^n, and n times the part of p along the axis plus sin(n a/2)/sin(a/2) R^((n-1)/2) times the part
-/// across.
+/// translation, R^n, and n times p's part along the axis plus sin(n a/2)/sin(a/2) R^((n-1)/2) times the part across.
 /// @param times any number; negative: the inverse, repeated
 [[nodiscard]] Pose repeated(const Pose& rigid, double times) noexcept;
 

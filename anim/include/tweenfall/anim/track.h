@@ -35,8 +35,7 @@ using WeightCurves = std::vector<Curve<double>>;
 using TrackCurve = std::variant<Curve<double>, Curve<Vec2>, Curve<Vec3>, Curve<Vec4>, Curve<Color>, Curve<Quat>,
                                 WeightCurves, StepCurve<bool>, StepCurve<std::string>>;
 
-/// What a track drives. `user` is any other name: such a track is evaluated and reported, but the library does not use
-/// it.
+/// What a track drives. `user` is any other name: such a track is evaluated and reported, but not used here.
 enum class Property { position, rotation, scale, color, weights, user };
 
 /// The property that a word names; `user` for any word that is not one of ours.

@@ -37,8 +37,7 @@ class TwoBoneChain {
     Vec3 to_middle{0, 0, 0};  ///< m
     Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
     double length = 0;  ///< m
-    double across = 0;  ///< length of the part of `axis` across the bone; x, y and z are valid if both lengths are
-                        ///< above 0
+    double across = 0;  ///< length of the part of `axis` across the bone; x, y and z are valid if both are above 0
   };
   [[nodiscard]] const Bone& rest_bone() const noexcept { return rest_bone_; }
   /// Whether there are no other nodes between the three.

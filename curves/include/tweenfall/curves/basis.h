@@ -1,8 +1,7 @@
 #pragma once
 
-/// The functions that weight control points, for plotting and for computing such sums; `hermite.h` has those of
-/// Hermite's cubic. The weights of one degree are never negative and sum to 1, so a curve stays in the convex hull of
-/// its points.
+/// The functions that weight control points, for plotting and for sums; `hermite.h` has those of Hermite's cubic. The
+/// weights of one degree are never negative and sum to 1, so a curve stays in the convex hull of its points.
 
 #include <tweenfall/curves/values.h>
 

@@ -21,9 +21,8 @@ template <class T>
 [[nodiscard]] T integral(const Curve<T>& curve, double from, double to);
 
 /// The curve whose rate is `curve` and which begins, at its start, with `first`, U s. Its spans are one degree higher,
-/// so it is made of spans where those of `curve` are unwarped and of degree 4 at most, and is a formula otherwise.
-/// Outside its knots it is exact where `curve` holds, and for as long as `curve` repeats; otherwise it goes on
-/// straight.
+/// so it is made of spans where those of `curve` are unwarped and of degree 4 at most, else a formula. Outside its
+/// knots it is exact where `curve` holds, and as long as `curve` repeats; otherwise it goes on straight.
 /// @throws std::invalid_argument for an endless curve.
 template <class T>
 [[nodiscard]] Curve<T> antiderivative(const Curve<T>& curve, const T& first = zero<T>());

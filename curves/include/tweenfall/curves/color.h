@@ -26,8 +26,7 @@ enum class ColorSpace {
 /// Which way around the hue goes between two colors. Source: W3C, "CSS Color Module Level 4", 12.4.
 enum class HueRule { shorter, longer, increasing, decreasing };
 
-/// Index of the coordinate that is a hue, or -1. It is an angle: not premultiplied, and arbitrary where a color is
-/// gray.
+/// Index of the coordinate that is a hue, or -1. It is an angle: not premultiplied, and arbitrary for grays.
 [[nodiscard]] int hue_index(ColorSpace space) noexcept;
 
 /// Whether coordinates in `space` have a hue: a gray has none, and in a space without a hue no color has one.

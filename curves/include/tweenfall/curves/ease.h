@@ -68,9 +68,8 @@ class Ease {
   /// Catmull-Rom, zero at a local extreme and at most three times the smaller secant, per component.
   /// Source: Dougherty, Edelman, Hyman, 1989, equation 4.2.
   [[nodiscard]] static Ease catmull_rom_monotone();
-  /// Catmull-Rom shaped as if a span took the same time as every other, the square root of its distance (no cusps or
-  /// loops in a path), or its distance, but at the keys' own times: the direction is continuous at a key, the speed may
-  /// not be.
+  /// Catmull-Rom shaped as if every span took the same time, the square root of its distance (no cusps or loops in a
+  /// path), or its distance, but at the keys' own times: directions are continuous at keys, speeds may not be.
   [[nodiscard]] static Ease uniform();
   [[nodiscard]] static Ease centripetal();
   [[nodiscard]] static Ease chordal();

@@ -68,8 +68,7 @@ template <class T>
 template <class T>
 [[nodiscard]] std::vector<Key<T>> keys_of(const Curve<T>& curve);
 
-/// A span as its Bezier points: the ends and, between them, the two points that the curve heads for; each a time in s
-/// and a value.
+/// A span as Bezier points: its ends and, between them, the points that the curve heads for; times in s and values.
 template <class T>
 struct BezierPoints {
   std::array<double, 4> times;

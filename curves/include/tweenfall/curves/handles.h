@@ -57,8 +57,7 @@ struct HandleOptions {
 ///         the wrong side of its key.
 [[nodiscard]] std::vector<HandleKey> placed_handles(std::span<const HandleKey> keys, const HandleOptions& options = {});
 
-/// The curve through `keys`. Continued linearly, it follows the outer handles of its end keys, where these have a
-/// length.
+/// The curve through `keys`. Continued linearly, it follows the outer handles of its end keys, if they have length.
 /// @throws as placed_handles.
 [[nodiscard]] Curve<double> handle_curve(std::span<const HandleKey> keys, const HandleOptions& options = {});
 

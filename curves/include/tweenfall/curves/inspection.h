@@ -4,9 +4,8 @@
 /// where it differs from another, and straight lines that stay near it.
 ///
 /// Answers come from polynomials and their Bezier control points, which bound them between the keys too; nothing is
-/// judged from samples, except that eases and formulas are replaced by the quintics of `calculus.h`. Distances of
-/// vectors are Euclidean, of colors those of their linear red, green, blue and alpha. For double, Vec2, Vec3, Vec4 and
-/// Color.
+/// judged from samples, but eases and formulas are replaced by the quintics of `calculus.h`. Distances of vectors are
+/// Euclidean, of colors those of their linear red, green, blue and alpha. For double, Vec2, Vec3, Vec4 and Color.
 ///
 /// All that look at the whole curve throw std::invalid_argument for an endless one.
 
@@ -46,8 +45,7 @@ struct Interval {
 };
 
 /// The times from `from` to `to` at which two curves are more than `tolerance`, U, apart, in order; single times do not
-/// count. With tolerance 0, the times at which they differ by more than rounding (1e-14 of the size; 4e-12 for eases
-/// and formulas).
+/// count. With tolerance 0, differences beyond rounding (1e-14 of the size; 4e-12 for eases and formulas).
 template <class T>
 [[nodiscard]] std::vector<Interval> differences(const Curve<T>& a, const Curve<T>& b, double from, double to,
                                                 double tolerance = 0);

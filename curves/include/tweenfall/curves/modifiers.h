@@ -111,14 +111,12 @@ struct Modifier {
 
 /// The curve with the modifiers laid over it, the first innermost: time passes through them from the last to the first,
 /// the value from the first to the last. Those that change the value see the time at which the curve itself is sampled,
-/// so that something added before cycles or steps is cycled and stepped with it. Source: Blender's order of
-/// F-modifiers.
+/// so something added before cycles or steps is cycled and stepped too. Source: Blender's order of F-modifiers.
 /// @throws std::invalid_argument naming the modifier: non-finite numbers, a step or scale not > 0, bounds or points out
 ///         of order, nothing to generate from.
 [[nodiscard]] Curve<double> modified(const Curve<double>& curve, std::span<const Modifier> modifiers);
 
-/// The same for Vec2, Vec3 and Vec4: `modifiers[i]` are laid over component i; an empty list leaves the component as it
-/// is.
+/// The same for Vec2, Vec3 and Vec4: `modifiers[i]` are laid over component i; an empty list changes nothing.
 /// @throws as above, naming the component; std::invalid_argument unless there is one list per component.
 template <class T>
 [[nodiscard]] Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> modifiers);

@@ -67,8 +67,7 @@ struct UnitComplex {
 [[nodiscard]] Mat3 matrix_of(const Vec3& rotation_vector) noexcept;
 [[nodiscard]] Mat3 matrix_of(const Quat& rotation) noexcept;
 /// For a matrix that is a rotation up to a little drift; of unit length.
-/// Source: Shepperd, "Quaternion from rotation matrix", 1978: computed from the largest of the four, so that no digit
-/// is lost.
+/// Source: Shepperd, "Quaternion from rotation matrix", 1978: from the largest of the four, so that no digit is lost.
 [[nodiscard]] Quat quaternion_of(const Mat3& matrix) noexcept;
 [[nodiscard]] Vec3 rotation_vector_of(const Mat3& matrix) noexcept;
 

@@ -21,7 +21,9 @@ struct QuinticDecay {
   /// @param blend_time    s; > 0
   /// @param floor         least duration, s (default: 0.02); shortening never goes below it
   /// @param acceleration  U/s^2 (default: 4000); the duration is not shortened where the start acceleration, at most
-  ///                      8 |rate| / duration, would exceed it: a tiny offset would otherwise be met with any force
+  ///                      8 |rate| / duration, would exceed it
+  ///
+  /// Without the last bound, a tiny offset would be met with an arbitrarily large acceleration.
   QuinticDecay() = default;
   QuinticDecay(double offset, double rate, double blend_time, double floor = 0.02, double acceleration = 4000);
 

@@ -58,8 +58,7 @@ inline constexpr int rotation_rows = 8;
 /// `nested`: slerps of slerps. Rows 0 to 2 are rotations P (x, y, z, w), rows 3 to 5 rotation vectors V: three turns at
 ///     constant speed, G = P exp(s V). The first two are mixed by the weight a + b s, the last two by c + d s, where
 ///     row 6 is (a, b, c, d), and the two results by f s + g s^2, where row 7 is (f, g, 0, 0). The mix of A and B by w
-///     is A exp(w log(A^-1 B)); the signs of the quaternions say which way the logarithm takes. `degree` and `from` are
-///     not read.
+///     is A exp(w log(A^-1 B)); the signs of the quaternions say which way. `degree` and `from` are not read.
 struct RotationSpan {
   enum class Form { exponential, normalized, nested };
 

@@ -57,8 +57,7 @@ template <class T>
 
 /// The cubic spline through `values` whose slopes a rule chooses, as Ease::makima() or Ease::tcb(...) do.
 /// @param rules  one for all values, or one for each
-/// @throws std::invalid_argument also for an ease without slopes, and for ends given with one of continuous
-///         acceleration.
+/// @throws std::invalid_argument also for an ease without slopes, and for ends with one of continuous acceleration.
 template <class T>
 [[nodiscard]] Curve<T> cubic_spline(std::span<const double> times, std::span<const T> values,
                                     std::span<const Ease> rules, const SplineEnds<T>& ends = {});
@@ -82,17 +81,15 @@ template <class T>
                                                bool closed = false);
 
 /// Bezier segments, one from each time to the next.
-/// @param control  degree + 1 control values per segment, in order; degree 1 to 5, the same for all. A segment that
-/// does
-///                 not start where the one before ended makes a jump.
+/// @param control  degree + 1 control values per segment; degree 1 to 5, the same for all. A segment that does not
+/// start where the one before ended makes a jump.
 template <class T>
 [[nodiscard]] Curve<T> bezier_spline(std::span<const double> times, std::span<const T> control);
 
 /// The B-spline of a full knot vector, on the stretch where its basis functions sum to 1: from knot number `degree` to
 /// knot number `control.size()`.
 /// @param degree   1 to 5
-/// @param knots    not decreasing, s; degree + 1 more than there are control points; none repeated more than degree + 1
-///                 times
+/// @param knots    not decreasing, s; degree + 1 more than there are control points; each degree + 1 times at most
 template <class T>
 [[nodiscard]] Curve<T> b_spline(int degree, std::span<const double> knots, std::span<const T> control);
 

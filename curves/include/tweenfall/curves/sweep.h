@@ -27,8 +27,7 @@ struct SweepOptions {
 /// The outside is to the right of the profile's direction; a closed profile may run either way. A rail that ends where
 /// it began and in the same direction is closed. At a kink of the rail the profile is placed at half the bend. Texture
 /// coordinates run from 0 to 1 with the length of the profile and of the rail.
-/// @throws std::invalid_argument for an endless curve or one that is a single point, steps < 1, or part of a turn on a
-///         closed rail.
+/// @throws std::invalid_argument for an endless or single-point curve, steps < 1, or part of a turn on a closed rail.
 [[nodiscard]] SurfaceMesh sweep(const Curve<Vec2>& profile, const Curve<Vec3>& rail, const SweepOptions& options = {});
 
 struct LatheOptions {
@@ -40,10 +39,9 @@ struct LatheOptions {
 
 /// The profile, with x as distance from the y axis and y as height, turned about the y axis from x towards -z.
 ///
-/// The outside is to the right of the profile's direction; where the result would face inwards, the mesh is turned
-/// inside out.
-/// @throws std::invalid_argument for an endless profile or one that is a single point, one that reaches beyond the axis
-///         (naming the place), or numbers out of range.
+/// The outside is to the right of the profile's direction; if it would face inwards, the mesh is turned inside out.
+/// @throws std::invalid_argument for an endless or single-point profile, one that reaches beyond the axis (naming the
+///         place), or numbers out of range.
 [[nodiscard]] SurfaceMesh lathe(const Curve<Vec2>& profile, const LatheOptions& options = {});
 
 }  // namespace tweenfall

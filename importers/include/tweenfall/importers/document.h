@@ -78,9 +78,8 @@ class Document {
   /// The systems of first-order equations in it; each is also a clip of the stage.
   [[nodiscard]] const std::vector<ExpressionSystem>& systems() const noexcept;
 
-  /// What its author may want to know although the document is valid: near misses of our names, things too stiff or too
-  /// fast for the step, bodies that start inside each other, bodies that a rule's pattern leaves out, losses from a
-  /// model.
+  /// What its author may want to know although the document is valid: near misses of names, things too stiff or too
+  /// fast for the step, bodies that start inside each other, bodies left out by a rule's pattern, losses from a model.
   [[nodiscard]] const std::vector<Problem>& notes() const noexcept;
 
   /// A problem found later with a node of `stage`, such as a position that no file can hold: the message with the

@@ -75,13 +75,11 @@ struct ShownRecording {
 /// The number of frames of the recording in its page: all of them, unless there are so many that it is thinned.
 [[nodiscard]] std::size_t page_frame_count(const Recording& recording);
 
-/// Greatest number of particles of a kind, at any one time, that a .glb has as nodes; of more, it has every second,
-/// third, ... one.
+/// Most particles of a kind at any time that a .glb has as nodes; of more, it has every second, third, ... one.
 inline constexpr std::size_t most_particles_in_glb = 500;
 
 /// Writes the form given by the extension of `file`: .json, .csv, .svg, .html or .glb. A .glb has only the motion,
-/// without physics: a viewer that simulated joints would work against the motion that they made. Written whole or not
-/// at all.
+/// without physics: a viewer that simulated joints would work against their motion. Written whole or not at all.
 /// @throws std::invalid_argument for another extension, std::runtime_error when it cannot be written.
 void save_recording(const Recording& recording, const StageDescription& stage, const std::filesystem::path& file);
 

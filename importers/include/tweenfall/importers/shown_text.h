@@ -21,8 +21,7 @@ struct Character {
 /// Valid UTF-8, with U+FFFD in place of each invalid byte.
 [[nodiscard]] std::string utf8_text(std::string_view text);
 
-/// UTF-8 unchanged; any other text, as written by old programs, is read as ISO 8859-1: each byte is the character of
-/// that number.
+/// UTF-8 unchanged; any other text, as of old programs, read as ISO 8859-1: each byte is the character of that number.
 [[nodiscard]] std::string utf8_or_latin1(std::string_view text);
 
 /// For content or an attribute's value in XML and HTML: markup becomes entities, and control characters (except tab and

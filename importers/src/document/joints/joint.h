@@ -36,8 +36,7 @@ struct JointBeingRead {
 // One field for each kind of joint
 [[nodiscard]] std::vector<fields::Row<JointBeingRead>> kinds();
 
-// Sets the joint's frames on its nodes from their rest poses. Faults are reported. @param rests of all nodes, in the
-// world
+// Sets the joint's frames on its nodes from their rest poses; reports faults. @param rests of all nodes, in the world
 void place(JointBeingRead& read, std::span<const Pose> rests, Building& building);
 
 }  // namespace tweenfall::document::joints

@@ -1,7 +1,6 @@
 #pragma once
 
-// Finds the place where a name that an object does not know is valid; derived from the forms, so it works for every
-// field.
+// Finds the place where a name that an object does not know is valid; from the forms, so for every field.
 
 #include "document/form.h"
 

@@ -15,8 +15,7 @@ namespace tweenfall::document::shapes {
 // A shape is a field of a body's "shape", which has exactly one. A shape fitted to a mesh also has a place on its node.
 using ShapeRow = fields::Row<Shape>;
 
-// A shape whose fields are those of a table; `solid_of` makes the solid from what was read, or reports why there is
-// none.
+// A shape whose fields are those of a table; `solid_of` makes the solid from what was read, or reports why not.
 template <class Thing, class SolidOf>
 [[nodiscard]] ShapeRow shape_of(std::string word, std::string help, const fields::Table<Thing>& table,
                                 SolidOf solid_of) {

@@ -8,8 +8,7 @@
 
 namespace tweenfall::gltf::physics {
 
-/// The reduced mass moved by a spring between the two ends of a joint: glTF states springs by stiffness, our joints by
-/// frequency.
+/// The reduced mass moved by a spring between the two ends of a joint: glTF states stiffness, our joints frequency.
 struct ReducedMass {
   double linear = 0;   ///< kg
   double angular = 0;  ///< about the frame's x axis through its origin, kg m^2
