@@ -15,7 +15,7 @@ namespace tweenfall {
 namespace page {
 namespace {
 
-/// Each {{PART}} of a frame gives way to its text.
+/// Replaces each {{PART}} of a frame by its text.
 std::string filled(const std::string& frame, const std::function<std::string(const std::string&)>& text_of) {
   std::string out;
   std::size_t at = 0;
@@ -49,13 +49,13 @@ std::string title_of(const Recording& recording, const StageDescription& stage) 
   return markup_text(name.empty() ? "recording" : name);
 }
 
-/// With soft bodies and wheels as meshes.
+/// The page data, with soft bodies and wheels as meshes.
 std::string data_of(const Recording& recording, const StageDescription& stage) {
   const auto dressed = recordings::with_own_meshes(recording, stage);
   return dressed ? page_data(dressed->recording, dressed->stage) : page_data(recording, stage);
 }
 
-/// A page in two parts: what is its own, and what it has in common with all others.
+/// A page in two parts: its own part, and the one in common with all others.
 struct Halves {
   std::string own, common;
 };
@@ -72,7 +72,7 @@ Halves halves_of(const Recording& recording, const StageDescription& stage) {
   return {filled(frame.substr(0, cut), text_of), filled(frame.substr(cut), text_of)};
 }
 
-/// A text inside a script that is data: nothing in it ends the script.
+/// A text for use inside a script as data: nothing in it can end the script.
 std::string quoted(const std::string& text) {
   std::string plain, out;
   json::append_string(plain, text);

@@ -17,14 +17,14 @@ double power_of_ten_below(double size) {
   return power;
 }
 
-/// With `digits` after the first one, and no more zeros than needed: "-1.25e300".
+/// With at most `digits` digits after the first, without trailing zeros: "-1.25e300".
 std::string exponent_text(double number, int digits) {
   double power = 1;
   int exponent = 0;
   for (; power > std::abs(number) && number != 0; --exponent) power /= 10;
   for (; power * 10 <= std::abs(number); ++exponent) power *= 10;
   std::string mantissa = short_text(number / power, digits);
-  // What is rounded up to ten has a digit more.
+  // A mantissa rounded up to ten has one more digit.
   if (mantissa == "10" || mantissa == "-10") {
     mantissa.pop_back();
     ++exponent;
@@ -36,14 +36,14 @@ std::string exponent_text(double number, int digits) {
 
 std::vector<double> ticks(const Axis& axis, int count) {
   const double rough = (axis.high - axis.low) / std::max(1, count);
-  // Below this the powers of ten are not exact enough, or are none.
+  // Below this the powers of ten are not exact enough, or zero.
   if (!(rough > 1e-290) || !std::isfinite(rough)) return {};
   const double power = power_of_ten_below(rough);
   double step = 10 * power;
   for (const double factor : {5.0, 2.0, 1.0})
     if (factor * power >= rough) step = factor * power;
   const double first = std::ceil(axis.low / step - 1e-9);
-  // Ticks that cannot be told apart are no help.
+  // Ticks that cannot be distinguished are useless.
   if (!(std::abs(first) < 1e15)) return {};
   std::vector<double> values;
   for (double k = first; k * step <= axis.high + 1e-9 * step && values.size() < 100; ++k) values.push_back(k * step);

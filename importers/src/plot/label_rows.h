@@ -1,6 +1,6 @@
 #pragma once
 
-// Labels along a line of time, each in the first row where it lies over no other.
+// Labels along a time line, each in the first row where it does not overlap another.
 
 #include <functional>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace tweenfall::plotting {
 
-/// About how wide a text of size 10 is, px.
+/// Approximate width of a text of size 10, px.
 [[nodiscard]] double text_width(const std::string& text);
 
 /// The text, or its beginning with "…", in no more than `width` px.
@@ -24,7 +24,7 @@ class LabelRows {
     double x;  ///< where the text begins, px
     std::size_t row;
   };
-  /// Whether something else lies where a text of this width would stand in a row.
+  /// Whether something else is in the way of a text between two places of a row.
   using IsTaken = std::function<bool(double from, double to, std::size_t row)>;
   /// Beside `x`, right of it where there is room, else left; in the first row where it lies over nothing, else in the
   /// first where it lies over no other label; nothing where it would in every row.

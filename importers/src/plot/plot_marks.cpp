@@ -16,13 +16,13 @@ namespace {
 constexpr const char* gray = "#8b9098";
 constexpr double row_height = 11;  // px, of labels
 
-/// A handle of a key as it is drawn, px.
+/// A handle of a key in the drawing, px.
 struct Arm {
   Vec2 key, tip;
   bool whole;  ///< not cut off by the frame
 };
 
-/// How much of the way from `place` by `way` stays within the frame, 0 to 1.
+/// The share of the line from `place` by `way` that is within the frame, 0 to 1.
 double share_within(const Panel& panel, const Vec2& place, const Vec2& way) {
   double share = 1;
   const auto limit = [&](double from, double step, double low, double high) {
@@ -58,12 +58,12 @@ void draw_arm(SvgWriter& svg, const Arm& arm) {
   if (arm.whole) svg.leaf("circle", {{"cx", px(arm.tip.x())}, {"cy", px(arm.tip.y())}, {"r", "2"}, {"fill", gray}});
 }
 
-/// Keys closer than their marks are wide are marked small, and their handles are not drawn.
+/// Whether keys are closer than the width of their marks; then marks are small, and handles are not drawn.
 bool are_close(const Panel& panel, const PlottedTrack& plotted) {
   return (panel.time.to - panel.time.from) / static_cast<double>(plotted.keys.size() + 1) < 9;
 }
 
-/// For curves whose keys have no handles but slopes.
+/// For curves whose keys have slopes, but no handles.
 void draw_slopes(SvgWriter& svg, const Panel& panel, const PlottedKey& key, std::size_t component) {
   constexpr double length = 14;  // px
   const double across = (panel.time.to - panel.time.from) / (panel.time.high - panel.time.low);
@@ -93,7 +93,7 @@ void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) 
     for (std::size_t i = 0; i < panel.names.size() && i < key.out.values.size(); ++i) {
       if (std::isnan(key.out.values[i]) || std::isnan(key.in.values[i])) continue;
       const Vec2 place(panel.time.place(key.time), panel.value.place(key.out.values[i]));
-      // Marks on top of each other are one.
+      // Marks on top of each other are drawn once.
       if (is_close && (place - last[i]).norm() < 0.25) continue;
       last[i] = place;
       if (!is_close) {
@@ -113,10 +113,10 @@ void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) 
 }
 
 void draw_moments(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
-  double last[] = {-HUGE_VAL, -HUGE_VAL};  // px, of an event and of a hand-off
+  double last[] = {-HUGE_VAL, -HUGE_VAL};  // px, of the last event and the last hand-off
   for (const PlottedMoment& moment : plotted.moments) {
     const double x = panel.time.place(moment.time);
-    // Closer lines are one.
+    // Closer lines are drawn once.
     if (std::abs(x - last[moment.handoff]) < 0.5) continue;
     last[moment.handoff] = x;
     svg.leaf("path", {{"class", moment.handoff ? "handoff" : "event"},
@@ -132,7 +132,7 @@ namespace {
 /// Whether any curve passes through a box of the panel, px.
 bool passes_through(const Panel& panel, const std::vector<TrackPoint>& points, double from, double to, double top,
                     double bottom) {
-  // The points of the box, and one on each side, from which lines lead into it.
+  // The points within the box, and one on each side, from which lines lead into it.
   const auto before = [&](const TrackPoint& point, double x) { return panel.time.place(point.time) < x; };
   auto first = std::lower_bound(points.begin(), points.end(), from, before);
   auto last = std::lower_bound(first, points.end(), to, before);
@@ -160,9 +160,9 @@ std::vector<Arm> arms_of(const Panel& panel, const PlottedTrack& plotted) {
   return all;
 }
 
-/// Whether some of it lies in a box, px.
+/// Whether a part of it lies in a box, px.
 bool passes_through(const Arm& arm, double from, double to, double top, double bottom) {
-  double enters = 0, leaves = 1;  // shares of the way
+  double enters = 0, leaves = 1;  // as shares of the line
   const auto clip = [&](double start, double way, double low, double high) {
     if (way == 0) {
       if (start <= low || start >= high) leaves = -1;
@@ -282,7 +282,7 @@ void draw_texts(SvgWriter& svg, const Panel& panel, const StepCurve<std::string>
 
 namespace {
 
-/// "#rrggbb", the nearest that screens have; of what is no color the black of those parts.
+/// "#rrggbb", the nearest color of screens; parts that are not numbers become black.
 std::string color_text(const std::vector<double>& linear) {
   const Vec4 parts = to_space(Color{{linear[0], linear[1], linear[2], 1}}, ColorSpace::srgb);
   std::string text = "#";
@@ -313,7 +313,7 @@ void draw_colors(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted
   for (const TrackPoint& point : plotted.curve) {
     const std::string color = color_text(point.values);
     const double x = panel.time.place(point.time);
-    // A strip of three pixels' width is as fine as eyes see here; jumps stand where they are.
+    // Strips of three pixels are fine enough; jumps are drawn at their exact place.
     if (color == before || (!before.empty() && x < from + 3 && !point.starts)) continue;
     strip(x);
     before = color;

@@ -1,13 +1,13 @@
 #pragma once
 
-// What stands on the curves of a plot: keys with their handles, moments, texts, colors, and what the marks mean.
+// The marks on the curves of a plot: keys with their handles, moments, texts, colors, and a legend.
 
 #include "plot/plot_panel.h"
 #include "plot/plotted_track.h"
 
 namespace tweenfall::plotting {
 
-/// Diamonds at the keys, with the handles that they have, or short lines along the slopes where there are none.
+/// Diamonds at the keys, with their handles or, where they have none, short lines along the slopes.
 void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted);
 
 /// Lines across the panel at events and hand-offs; their names, to be drawn over the curves.
@@ -19,7 +19,7 @@ void draw_texts(SvgWriter& svg, const Panel& panel, const StepCurve<std::string>
 /// The colors themselves, along the top of the frame.
 void draw_colors(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted);
 
-/// One line that shows each mark that the plot has beside its name.
+/// One line that shows each mark used in the plot beside its name.
 void draw_legend(SvgWriter& svg, const PlottedStage& plotted, double x, double y);
 
 }  // namespace tweenfall::plotting

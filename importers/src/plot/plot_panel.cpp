@@ -60,7 +60,7 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
           {{"x", px(x)}, {"y", px(bottom + 14)}, {"font-size", "10"}, {"text-anchor", "middle"}, {"fill", "#6d7178"}},
           moment_texts[i] + " s");
   }
-  // From the right: the components, as many as half the width takes; a plain number needs no name.
+  // From the right: the components, as many as fit in half the width; a plain number needs no name.
   double x = right;
   for (std::size_t i = panel.names == std::vector<std::string>{"value"} ? 0 : panel.names.size(); i-- > 0;) {
     const bool is_cut = x < (left + right) / 2;
@@ -74,7 +74,7 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
     x -= 8 + 7 * static_cast<double>(panel.names[i].size());
     if (is_cut) break;
   }
-  // Letters of this size are a quarter wider than those that are measured.
+  // Letters of this size are a quarter wider than those measured.
   const std::string title = shortened(panel.title, (x - left) / 1.25);
   svg.text("text", {{"x", px(left)}, {"y", px(top - 6)}, {"font-weight", "600"}, {"fill", "#23262b"}}, title);
   const double after = left + 1.25 * text_width(title) + 6;
@@ -88,7 +88,7 @@ struct Place {
   double x, y;
 };
 
-/// Whether the way from `from` to `to` passes all `between` so closely that nobody sees a difference.
+/// Whether the line from `from` to `to` passes all `between` so closely that no difference is visible.
 bool is_straight(const Place& from, const std::vector<Place>& between, const Place& to) {
   constexpr double seen = 0.06;  // px
   const double across = to.x - from.x, up = to.y - from.y, length = std::sqrt(across * across + up * up);
@@ -98,7 +98,7 @@ bool is_straight(const Place& from, const std::vector<Place>& between, const Pla
   });
 }
 
-/// A path through places in order of x, without those that a straight way passes anyway.
+/// A path through places in order of x, without those that a straight line passes anyway.
 void append_line(std::string& path, const std::vector<Place>& places) {
   constexpr std::size_t most = 60;
   std::vector<Place> between;

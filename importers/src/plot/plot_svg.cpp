@@ -14,7 +14,7 @@ namespace {
 constexpr double left_margin = 58, right_margin = 16;
 constexpr double head = 52, title_room = 26, value_height = 150, rate_height = 90, between = 24, below = 28, foot = 8;
 
-/// Width of a column where there are so many, px.
+/// Width of a column for a number of columns, px.
 double column_width(int columns) {
   return columns == 1 ? 860 : columns == 2 ? 480 : 350;
 }
@@ -62,7 +62,7 @@ void draw_block(SvgWriter& svg, const PlottedTrack& plotted, const PlotOptions& 
   draw_frame(svg, values, !has_rates(plotted, options));
   if (std::holds_alternative<Curve<Color>>(plotted.track->curve)) draw_colors(svg, values, plotted);
   draw_moments(svg, values, plotted);
-  // Below the curves, which names may cross but must not hide.
+  // Names are drawn below the curves, so that they do not hide them.
   draw_moment_names(svg, values, plotted);
   draw_curves(svg, values, plotted.curve, false);
   for (const auto& points : plotted.simulated) draw_curves(svg, values, points, true);
@@ -95,7 +95,7 @@ std::string plot_svg(const StageDescription& stage, const Recording* recording, 
   const std::size_t columns =
       std::clamp(plotted.tracks.size(), std::size_t{1}, static_cast<std::size_t>(options.columns));
   const double width = plotting::column_width(static_cast<int>(columns));
-  std::vector<double> tops = {plotting::head};  // of the rows, and of what follows them
+  std::vector<double> tops = {plotting::head};  // of the rows, then of the legend
   for (std::size_t i = 0; i < plotted.tracks.size(); i += columns) {
     double height = 0;
     for (std::size_t k = i; k < std::min(i + columns, plotted.tracks.size()); ++k)

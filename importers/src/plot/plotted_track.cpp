@@ -24,7 +24,7 @@ namespace {
 
 constexpr int points_across = 400;
 
-/// A clip on the plot's axis: through its play when there is a recording, else as it is.
+/// A clip on the plot's axis: by its play when there is a recording, else in clip time.
 struct Shown {
   const Clip* clip;
   const Play* play;
@@ -55,8 +55,8 @@ std::vector<Shown> shown_clips(const StageDescription& stage, bool recorded, con
   return shown;
 }
 
-/// Times of the keys, as often as they are passed.
-/// @param lanes  of the stage; empty where clips are shown as they are
+/// Times at which keys are passed, once for each passage.
+/// @param lanes of the stage; empty where clips are shown in clip time
 std::vector<double> passed_keys(const std::vector<recordings::KeyLane>& lanes, const Shown& shown, const Track& track,
                                 double from, double until) {
   std::vector<double> times;
@@ -76,7 +76,7 @@ bool jumps(const TrackPoint& in, const TrackPoint& out) {
   return false;
 }
 
-/// Stage times at which a looping play starts over: there even a formula jumps.
+/// Stage times at which a looping play restarts, where even a formula jumps.
 std::vector<double> seams(const Shown& shown, double from, double until) {
   std::vector<double> times;
   if (!shown.play) return times;
@@ -107,14 +107,14 @@ void widen(std::pair<double, double>& stretch, const WeightCurves& curves) {
 template <class T>
 void widen(std::pair<double, double>&, const StepCurve<T>&) {}
 
-/// Where what is keyed begins and ends; nothing for constants, switches and what has no end.
+/// The start and end of the keyed part; empty for constants, switches and endless curves.
 std::optional<std::pair<double, double>> keyed_stretch(const TrackCurve& curve) {
   std::pair<double, double> stretch(HUGE_VAL, -HUGE_VAL);
   std::visit([&](const auto& held) { widen(stretch, held); }, curve);
   return stretch.first < stretch.second ? std::optional(stretch) : std::nullopt;
 }
 
-/// Whether a track that ends goes on moving a little beyond that end.
+/// Whether a track still moves just beyond its end.
 bool moves_beyond(const Clip& clip, const Track& track, double end, double step) {
   const Shown shown{&clip, nullptr};
   const TrackPoint rest = shown.at(track, end + step / 2, Side::out);
@@ -125,7 +125,7 @@ bool moves_beyond(const Clip& clip, const Track& track, double end, double step)
   return false;
 }
 
-/// Beyond its keys a curve that repeats may jump at each turn.
+/// The times beyond its keys at which a repeating curve may jump.
 std::vector<double> turns_beyond(const Shown& shown, const Track& track, double from, double until) {
   std::vector<double> times;
   const auto keyed = keyed_stretch(track.curve);
@@ -159,7 +159,7 @@ void add_handles(PlottedTrack& plotted, const Shown& shown) {
   }
 }
 
-/// Names of the components, and units; a rotation's follow from how it turns.
+/// Sets names of the components, and units; for a rotation these depend on its axis.
 void name_parts(PlottedTrack& plotted) {
   plotted.names = component_names(plotted.track->curve);
   plotted.rate_names = rate_names(plotted.track->curve);
@@ -199,12 +199,12 @@ void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<doub
   for (const double time : times) {
     const bool corner = std::binary_search(corners.begin(), corners.end(), time) && time > from;
     if (corner) plotted.curve.push_back(shown.at(*plotted.track, time, Side::in));
-    // The very end is arrived at; what would follow is not on the plot.
+    // At the very end only the arriving value is shown.
     if (corner && time == until) continue;
     plotted.curve.push_back(shown.at(*plotted.track, time, time == until ? Side::in : Side::out));
     if (corner) plotted.curve.back().starts = jumps(plotted.curve[plotted.curve.size() - 2], plotted.curve.back());
   }
-  if (plotted.curve.front().values.size() > 16) return;  // keys of so many curves would hide them
+  if (plotted.curve.front().values.size() > 16) return;  // so many keys would hide the curves
   for (const double time : keys)
     plotted.keys.push_back({time, shown.at(*plotted.track, time, Side::in), shown.at(*plotted.track, time, Side::out),
                             time == keys.front(), time == keys.back()});
@@ -213,7 +213,7 @@ void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<doub
     std::tie(plotted.first_key, plotted.last_key) = *keyed;
 }
 
-/// What no axis can hold becomes not-a-number, which is not drawn.
+/// Numbers too large for an axis become NaN, which is not drawn.
 void leave_out_unplottable(PlottedTrack& plotted) {
   const auto leave_out = [&](std::vector<double>& numbers, bool& some) {
     for (double& number : numbers)
@@ -250,7 +250,7 @@ void add_recorded(PlottedTrack& plotted, const Recording& recording) {
                                   [&](const NodeRecord& node) { return node.name == plotted.track->node; });
   if (found == recording.nodes.end()) return;
   const auto node = static_cast<std::size_t>(found - recording.nodes.begin());
-  // Once it has left its script, what is shown of it need not be the script's again: it settles, or starts over.
+  // Once it has left its script, its motion may differ from the script even when keyed: it settles, or starts over.
   bool has_left = false;
   for (std::size_t first = 0; first < found->owner.size();) {
     std::size_t last = first;
@@ -293,7 +293,7 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
   }
   // A formula has no end, a single moment no length: show ten seconds, or one.
   if (!(result.until > result.from)) result.until = result.from + (recording ? 1 : 10);
-  // So short a time that points within it cannot be told apart is shown as one that is a little longer.
+  // A time too short to distinguish points within it is lengthened a little.
   constexpr double shortest = 1e-100, finest = 1e-12;
   result.until =
       std::max(result.until, result.from + std::max(shortest, finest * std::max(std::abs(result.from), result.until)));
@@ -331,7 +331,7 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
       PlottedTrack plotted;
       plotted.track = &track;
       plotted.title = track.name() + (clips.size() > 1 ? " in " + shown.clip->name : "");
-      // What is not keyed says nothing of the time outside its clip.
+      // Curves without keys are not shown outside the time of their clip.
       const bool is_cut = !recording && !keyed_stretch(track.curve);
       const double from = is_cut ? 0 : result.from, until = is_cut ? clip_end : result.until;
       add_curve(plotted, shown, passed_keys(lanes, shown, track, from, until), from, until);

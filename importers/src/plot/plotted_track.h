@@ -1,6 +1,6 @@
 #pragma once
 
-// What a plot shows of each track, gathered before anything is drawn.
+// The content of a plot for each track, collected before anything is drawn.
 
 #include "plot/track_values.h"
 
@@ -10,7 +10,7 @@
 
 namespace tweenfall::plotting {
 
-/// Where a component's handle ends, as its way from the key.
+/// The end of a component's handle, relative to its key.
 struct PlottedHandle {
   std::size_t component = 0;
   double time = 0, change = 0;  ///< s, the value's unit
@@ -30,7 +30,7 @@ struct PlottedMoment {
   bool handoff = false;
 };
 
-/// Numbers beyond this are not drawn: their differences, with room around them, would not be numbers.
+/// Numbers beyond this are not drawn: their differences, with room around them, would overflow.
 inline constexpr double largest_plotted = 1e300;
 
 struct PlottedTrack {
@@ -41,9 +41,9 @@ struct PlottedTrack {
   std::vector<TrackPoint> curve;               ///< NaN: not drawn
   std::vector<PlottedKey> keys;
   std::vector<PlottedMoment> moments;
-  std::vector<std::vector<TrackPoint>> simulated;     ///< each a stretch in which the body was not keyed
-  double first_key = -HUGE_VAL, last_key = HUGE_VAL;  ///< s; what lies beyond is not keyed
-  bool lacks_values = false, lacks_rates = false;     ///< some are too large or no numbers, and NaN here
+  std::vector<std::vector<TrackPoint>> simulated;     ///< one for each stretch in which the body was not keyed
+  double first_key = -HUGE_VAL, last_key = HUGE_VAL;  ///< s; the curve beyond them is not keyed
+  bool lacks_values = false, lacks_rates = false;     ///< some are too large or not numbers, and NaN here
 };
 
 struct PlottedStage {

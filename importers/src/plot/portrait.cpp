@@ -17,7 +17,7 @@ constexpr double portrait_width = 470, energy_width = 430, portrait_height = 400
                  portrait_left = 62, portrait_foot = 46;
 constexpr const char *own_color = "#d1495b", *other_color = "#3d6fa5", *arrow_color = "#b3b8c0", *ink = "#23262b",
                      *pale_ink = "#6d7178", *portrait_frame = "#d4d6da";
-/// Beyond this nothing is drawn: what a method blows up says so by leaving the picture.
+/// Beyond this nothing is drawn: a path that a method blows up leaves the picture.
 constexpr double most_drawn = 1e12;
 
 struct PortraitPoint {
@@ -68,7 +68,7 @@ Places energy_of(const ExpressionSystem& system, const FirstOrderPath& path) {
   return places;
 }
 
-/// Leaves out what would not be seen to move.
+/// The points of a path, without those too close to be visible.
 std::string points_text(const Places& places, const Axis& across, const Axis& up) {
   constexpr double seen = 0.6;  // px
   std::string text;
@@ -123,7 +123,7 @@ void draw_axes(SvgWriter& svg, const Axis& across, const Axis& up, const std::st
   svg.text("text", {{"x", px(across.from)}, {"y", px(up.to - 7)}, {"fill", ink}}, up_name);
 }
 
-/// Arrows of one length: which way it goes, as the picture is stretched.
+/// Arrows of one length for the direction at each place, in the scale of the picture.
 void draw_field(SvgWriter& svg, const ExpressionSystem& system, const Axis& across, const Axis& up) {
   constexpr int columns = 17, rows = 15;
   constexpr double half = 9;  // px
@@ -188,7 +188,7 @@ void draw_energy(SvgWriter& svg, const ExpressionSystem& system, const FirstOrde
   }
   const Axis across = times.axis(left + portrait_left, left + energy_width - 16);
   const double low = energies.low, high = energies.high;
-  // What is kept but for little looks so, and how little is told.
+  // An almost constant energy is drawn almost flat, with its small range stated.
   constexpr double least = 0.02;
   const double middle = 0.5 * (low + high), half = 0.5 * least * std::abs(middle);
   if (high - low < 2 * half) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// SVG as text: elements that open and close, attributes in the order given, two spaces a level. The same calls give the
-// same text.
+// SVG as text: elements that open and close, attributes in the order given, two spaces per level. The same calls give
+// the same text.
 
 #include <initializer_list>
 #include <string>
@@ -20,7 +20,7 @@ class SvgWriter {
   void open(std::string_view element, Attributes attributes = {});
   void close();
   void leaf(std::string_view element, Attributes attributes);
-  /// An element that holds text alone.
+  /// An element that contains only text.
   void text(std::string_view element, Attributes attributes, std::string_view content);
   void comment(std::string_view content);
 
@@ -34,7 +34,7 @@ class SvgWriter {
   std::vector<std::string> open_;
 };
 
-/// A length or coordinate as pictures have it: two decimals at most.
+/// A length or coordinate with at most two decimals.
 [[nodiscard]] std::string px(double value);
 
 /// "x,y"

@@ -32,7 +32,7 @@ void for_all_points(PlottedTrack& plotted, const Use& use) {
     for (TrackPoint& point : points) use(point);
 }
 
-/// The one axis that all turns are about, its largest part positive; nothing where there is none.
+/// The common axis of all turns, with its largest part positive; empty where there is none.
 std::optional<Vec3> common_axis(PlottedTrack& plotted) {
   Vec3 axis(0, 0, 0);
   for_all_points(plotted, [&](const TrackPoint& point) {
@@ -67,14 +67,14 @@ class Angles {
     }
     const Vec3 plain = to_euler(q) * in_degrees;
     if (expected.empty()) return {plain[0], plain[1], plain[2]};
-    // Where the second is a right angle, the first and third turn about one axis: only their sum or difference is
+    // Where the second is a right angle, the first and third turn about the same axis: only their sum or difference is
     // known.
     if (std::abs(std::abs(plain[1]) - 90) < 1e-5) {
       const double sign = plain[1] < 0 ? -1 : 1, sum = expected[0] + sign * expected[2];
       const double change = nearest_turn(plain[0] + sign * plain[2], sum) - sum;
       return {expected[0] + change / 2, nearest_turn(plain[1], expected[1]), expected[2] + sign * change / 2};
     }
-    // The same rotation in two ways, each up to whole turns.
+    // The two triples of angles for the same rotation, each up to whole turns.
     std::vector<double> best;
     double least = HUGE_VAL;
     for (const Vec3& way : {plain, Vec3(plain[0] + 180, 180 - plain[1], plain[2] + 180)}) {
@@ -84,7 +84,7 @@ class Angles {
         angles.push_back(nearest_turn(way[static_cast<Eigen::Index>(i)], expected[i]));
         distance += std::abs(angles[i] - expected[i]);
       }
-      // What is not a number is no nearer than anything, but still an answer.
+      // NaN is never nearer than anything, but must still give a result.
       if (best.empty() || distance < least) {
         least = distance;
         best = angles;
@@ -105,7 +105,7 @@ class Angles {
     point.rates = rates(velocity);
   }
 
-  /// Point after point; about one axis the rate says how far a fast turn has come in between.
+  /// Point after point; about a common axis the rate tells how far a fast turn went in between.
   void change(std::vector<TrackPoint>& points, std::vector<double> expected) const {
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (i > 0) {
@@ -137,7 +137,7 @@ void turn_into_angles(PlottedTrack& plotted) {
     angles.change(key.in, shown_at(key.time));
     angles.change(key.out, key.in.values);
   }
-  // The turns go on from one owner to the next.
+  // Angles continue from one owner to the next.
   const std::vector<TrackPoint>* before = nullptr;
   for (auto& points : plotted.simulated) {
     if (points.empty()) continue;

@@ -6,11 +6,11 @@
 
 namespace tweenfall::plotting {
 
-/// Changes a plotted rotation from x, y, z, w and rad/s to degrees and degrees per second: where all of it turns about
-/// one axis, the angle about that; else three angles, intrinsic x, y, z. From the first point on neither is wrapped.
+/// Changes a plotted rotation from x, y, z, w and rad/s to degrees and degrees per second: the angle if all turns are
+/// about one axis; else three angles, intrinsic x, y, z. Neither is wrapped after the first point.
 void turn_into_angles(PlottedTrack& plotted);
 
-/// The same of a single angle.
+/// The same for a single angle.
 void turn_into_degrees(PlottedTrack& plotted);
 
 }  // namespace tweenfall::plotting

@@ -32,7 +32,7 @@ void add_handles(const Curve<T>& curve, std::vector<TrackHandle>& handles) {
         handle.time.assign(handle.change.size(), points.times[tip] - points.times[key]);
       }
     } catch (const std::invalid_argument&) {
-      // An ease: what moves there are no handles.
+      // An ease, which has no handles.
     }
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where the handles of a track's keys are: the control points of its cubic spans.
+// The handles of a track's keys: the control points of its cubic spans.
 
 #include <tweenfall/anim/track.h>
 
@@ -8,15 +8,15 @@
 
 namespace tweenfall::plotting {
 
-/// One handle of all components, as its way from its key.
+/// One handle for all components, relative to its key.
 struct TrackHandle {
   double key = 0;              ///< clip time of its key, s
-  bool arrives = false;        ///< on the side from which the curve comes
+  bool arrives = false;        ///< on the arriving side
   std::vector<double> time;    ///< s, one per component
   std::vector<double> change;  ///< in the value's unit, one per component
 };
 
-/// In order of their keys. Spans that are no cubics of their keys have none: eases, straight ways, formulas, rotations,
+/// In order of their keys. Other spans have none: eases, straight lines, formulas, rotations,
 /// colors.
 [[nodiscard]] std::vector<TrackHandle> track_handles(const TrackCurve& curve);
 

@@ -40,7 +40,7 @@ std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t n
                                        std::size_t first, std::size_t last) {
   std::vector<TrackPoint> points;
   const std::optional<Component> component = component_named(property_name);
-  // A single angle is not told from the recorded rotation.
+  // A single angle is not derived from the recorded rotation.
   const bool coordinate = component && component->property == Property::position;
   const Property property = coordinate ? Property::position : property_named(property_name);
   if (property != Property::position && property != Property::rotation) return points;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Any track as rows of numbers: one component a row, values and rates over time.
+// Any track as rows of numbers: one row per component, values and rates over time.
 
 #include <tweenfall/physics/stage/recording.h>
 
@@ -22,8 +22,8 @@ struct TrackPoint {
 [[nodiscard]] std::vector<std::string> component_names(const TrackCurve& curve);
 [[nodiscard]] std::vector<std::string> rate_names(const TrackCurve& curve);
 
-/// What is left of the motion of a recorded node, relative to its parent, as a track of `property` would say it; empty
-/// for properties other than position and rotation.
+/// The recorded motion of a node, relative to its parent, in the form of a track of `property_name`; empty for
+/// properties other than position and rotation.
 /// @param first, last  frames, both included
 [[nodiscard]] std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t node,
                                                      std::string_view property_name, std::size_t first,

@@ -52,7 +52,7 @@ void check_node(const Recording& recording, std::size_t index) {
   }
 }
 
-/// The largest of what a file of floats would hold of a node at one frame, and what it is.
+/// The largest number of a node at one frame in a file of floats, and its name.
 std::pair<double, const char*> largest_number(const NodeRecord& node, std::size_t frame) {
   std::pair<double, const char*> largest(0, "");
   const auto take = [&](double size, const char* what) {

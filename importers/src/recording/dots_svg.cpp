@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_frames = 90;
 constexpr std::size_t most_dots = 12'000;  // in all frames together, of about ten bytes each
 
-/// Particles of an emitter are counted through.
+/// Particles are counted within their emitter.
 bool is_drawn(std::uint64_t number, std::uint64_t every) {
   constexpr std::uint64_t of_emitter = (std::uint64_t{1} << 40) - 1;
   return (number & of_emitter) % every == 0;
@@ -56,7 +56,7 @@ void draw_dots(plotting::SvgWriter& svg, const DotsPicture& picture, const Parti
   }
   values += path(frames.back());
   times += "1";
-  // A still picture shows the middle.
+  // Viewers without animation show the middle frame.
   svg.open("path", {{"d", path(frames[frames.size() / 2])}});
   svg.leaf("animate", {{"attributeName", "d"},
                        {"calcMode", "discrete"},

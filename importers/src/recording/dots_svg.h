@@ -1,6 +1,6 @@
 #pragma once
 
-// Particles in the moving picture of a recording: dots, frame by frame.
+// Particles in the animated picture of a recording: dots, frame by frame.
 
 #include "figures/figures.h"
 #include "plot/svg_writer.h"
@@ -13,11 +13,11 @@ struct DotsPicture {
   const Recording& recording;
   const figures::SideView& view;
   double start, length;  // s
-  double rest;           // that the last frame stays, s
+  double rest;           // time that the last frame stays, s
 };
 
-/// One path, whose dots are those of one frame after the other; of very many only every k-th is drawn, each
-/// through its whole life.
+/// One path with the dots of one frame after the other; of very many particles only every k-th is drawn, for its whole
+/// life.
 void draw_dots(plotting::SvgWriter& svg, const DotsPicture& picture, const ParticlesRecord& particles,
                const std::string& color);
 

@@ -47,18 +47,18 @@ bool drives(const Play& play, const std::string& node) {
                                           [&](const std::string& pattern) { return matches(pattern, node); });
 }
 
-/// A key passed: when, and which of the lane's keys it is.
+/// A key passed: its time, and its index among the lane's keys.
 struct Pass {
   double time;
   std::uint32_t key;
 };
 
-/// Whether all of the clip is played by its own loop, at one speed.
+/// Whether the whole clip is played with its own loop, at one speed.
 bool is_plain(const Play& play) {
   return play.speed.is_constant() && play.from == 0 && !play.to && play.offset == 0 && !play.reverse && !play.loop;
 }
 
-/// The same of any play: keys are what its clock meets.
+/// The same for any play, with keys as events of the clip.
 bool add_met_passes(const Play& play, const Clip& clip, const std::vector<double>& keys, std::uint32_t first_key,
                     double from, double until, std::vector<Pass>& out) {
   Clip of_keys;
@@ -77,7 +77,7 @@ bool add_met_passes(const Play& play, const Clip& clip, const std::vector<double
 }
 
 /// Adds the stage times at which `play` passes the clip times `keys`, which are numbered from `first_key` on.
-/// @return whether some times around were left out, because there are too many
+/// @return whether some rounds were left out, because there are too many
 bool add_passes(const Play& play, const Clip& clip, const std::vector<double>& keys, std::uint32_t first_key,
                 double from, double until, std::vector<Pass>& out) {
   if (!is_plain(play)) return add_met_passes(play, clip, keys, first_key, from, until, out);
@@ -87,7 +87,7 @@ bool add_passes(const Play& play, const Clip& clip, const std::vector<double>& k
   if (inside == 0 || speed == 0) return false;
   const bool cycles = clip.loop.mode != LoopMode::once && std::isfinite(length) && length > 0;
   const double plays = !cycles ? 1 : clip.loop.count > 0 ? clip.loop.count : HUGE_VAL;
-  // The first and the last time around of which something is seen.
+  // The first and the last round that are partly visible.
   const double around = cycles ? length / speed : 0;
   const double first = cycles ? std::max(0.0, std::floor((from - play.at) / around) - 1) : 0;
   const double last = cycles ? std::min(std::ceil(plays) - 1, std::floor((until - play.at) / around) + 1) : 0;
@@ -148,7 +148,7 @@ std::vector<KeyLane> key_lanes(const StageDescription& stage, double from, doubl
     }
   }
   for (std::size_t i = 0; i < lanes.size(); ++i) {
-    // Where two times around meet, the key that begins the later one says how it goes on.
+    // Where two rounds meet, the first key of the later one counts.
     std::stable_sort(passes[i].begin(), passes[i].end(), [](const Pass& a, const Pass& b) { return a.time < b.time; });
     for (const Pass& pass : passes[i]) {
       const bool again = !lanes[i].times.empty() && lanes[i].times.back() == pass.time;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a key says, in words: its value and how the curve goes on from it.
+// A key in words: its value and how the curve leaves it.
 
 #include <tweenfall/anim/track.h>
 
@@ -13,8 +13,8 @@ namespace tweenfall::recordings {
 /// as linear "(r, g, b, a)".
 [[nodiscard]] std::string key_value_text(const Track& track, double clip_time);
 
-/// How the curve goes on from each key: as the author said; where nobody said it "hold", "linear", "eased" (a straight
-/// way re-timed), "quadratic", "cubic", "quintic", or "several" where components differ; "end" for the last key.
+/// How the curve leaves each key: in the author's words or, without these, "hold", "linear", "eased" (a straight line
+/// re-timed), "quadratic", "cubic", "quintic", or "several" where components differ; "end" for the last key.
 [[nodiscard]] std::vector<std::string> key_ease_texts(const Track& track, const std::vector<double>& clip_times);
 
 }  // namespace tweenfall::recordings

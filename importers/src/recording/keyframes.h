@@ -1,6 +1,6 @@
 #pragma once
 
-// The few frames from which the others follow by straight lines.
+// Chooses a few frames between which the others lie on straight lines.
 
 #include <tweenfall/curves/values.h>
 
@@ -8,7 +8,7 @@
 
 namespace tweenfall::recordings {
 
-/// Indices of the frames to keep, first and last among them: between two of them in a row, every point of every frame
+/// Indices of the frames to keep, first and last among them: between two consecutive ones, every point of every frame
 /// lies within `tolerance` of the straight line in time.
 ///
 /// Source: the splitting of D. Douglas and T. Peucker, 1973, with the distance at equal times in place of that to the

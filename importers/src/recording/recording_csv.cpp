@@ -10,8 +10,8 @@ namespace tweenfall {
 namespace recordings {
 namespace {
 
-/// A field as RFC 4180 has it: quoted when it holds a comma, a quote or a line break. No other control character stays,
-/// for readers of tables end at a zero or refuse them.
+/// A field by RFC 4180: quoted when it contains a comma, a quote or a line break. Other control characters are
+/// replaced, because readers of tables stop at a zero byte or refuse them.
 std::string field(const std::string& name) {
   std::string text;
   for (const char c : utf8_text(name)) {
@@ -35,7 +35,7 @@ void append_columns(std::string& out, const Values& values, int count) {
   }
 }
 
-/// What is a point: it has a place, perhaps a velocity, and no rotation.
+/// A row for a point, with a position, perhaps a velocity, and no rotation.
 void append_point(std::string& out, double time, const std::string& name, const char* kind, const Vec3& position,
                   const Vec3* velocity) {
   append_number(out, time);

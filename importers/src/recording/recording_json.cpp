@@ -14,7 +14,7 @@ namespace tweenfall {
 namespace recordings {
 namespace {
 
-/// "[a,b,...]" of what `append` adds for each index.
+/// "[a,b,...]" with what `append` adds for each index.
 template <class Append>
 void append_list(std::string& out, std::size_t size, Append append) {
   out += '[';
@@ -47,7 +47,7 @@ void append_node(std::string& out, const NodeRecord& node) {
   out += "}";
 }
 
-/// A list with one value for each frame, null where the joint is gone or has not come yet.
+/// A list with one value for each frame, null where the joint is gone or does not exist yet.
 template <class Append>
 void append_readings(std::string& out, const char* name, const JointRecord& joint, Append append) {
   ((out += ",\n   \"") += name) += "\": ";
@@ -59,7 +59,7 @@ void append_readings(std::string& out, const char* name, const JointRecord& join
   });
 }
 
-/// A joint that came by the name of one that had gone, to hold others, is told by its number, too.
+/// The name of a joint; a later joint with the name of one that is gone also gets a number.
 std::string told_name(const Recording& recording, const JointRecord& joint) {
   const std::span<const JointRecord> before(recording.joints.data(), &joint);
   const auto namesakes = std::ranges::count(before, joint.name, &JointRecord::name);
@@ -90,7 +90,7 @@ void append_joint(std::string& out, const Recording& recording, const JointRecor
   out += "}";
 }
 
-/// The places of all nodes, frame by frame, and when which edges tore.
+/// The positions of all nodes, frame by frame, and the times at which edges tore.
 void append_soft(std::string& out, const Recording& recording, const SoftRecord& soft) {
   json::append_string(out, soft.name);
   out += ": {\n   \"positions\": ";
@@ -110,7 +110,7 @@ void append_soft(std::string& out, const Recording& recording, const SoftRecord&
   out += "}";
 }
 
-/// How its wheels stand, wheel by wheel and frame by frame.
+/// The poses of its wheels, wheel by wheel and frame by frame.
 void append_vehicle(std::string& out, const VehicleRecord& vehicle) {
   json::append_string(out, vehicle.name);
   out += ": {";
@@ -134,7 +134,7 @@ void append_vehicle(std::string& out, const VehicleRecord& vehicle) {
   out += "}";
 }
 
-/// Places and velocities, frame by frame, and by which number each particle is known.
+/// Positions and velocities, frame by frame, and the number of each particle.
 void append_particles(std::string& out, const ParticlesRecord& particles) {
   json::append_string(out, particles.name);
   out += ": {\n   \"numbers\": ";
@@ -154,7 +154,7 @@ void append_particles(std::string& out, const ParticlesRecord& particles) {
   out += "}";
 }
 
-/// Of bodies, frame by frame; of a force that has none null.
+/// Energies of bodies, frame by frame; null for a force without energy.
 void append_energy(std::string& out, const std::vector<StageEnergy>& energy) {
   const auto series = [&](const char* name, const auto& append_at) {
     out += name;

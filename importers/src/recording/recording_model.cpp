@@ -30,7 +30,7 @@ bool same(double a, double b) {
   return a == b;
 }
 
-/// Keys frame by frame, joined by straight lines; of values that stay, the first and the last.
+/// Keys frame by frame, joined by straight lines; of constant stretches, only the first and the last.
 template <class T, class ValueAt>
 Curve<T> baked(const std::vector<double>& times, ValueAt value_at) {
   std::vector<Key<T>> keys;

@@ -23,8 +23,8 @@ using figures::SideView;
 
 constexpr double picture_width = 760, margin = 12, picture_head = 34, most_height = 400;
 constexpr double lane_height = 18, lane_left = 110;
-constexpr double rest = 0.8;                    // s that the last frame stays before the picture starts again
-constexpr std::size_t most_bytes = 280 * 1000;  // pages of projects load it at each visit
+constexpr double rest = 0.8;                    // s; how long the last frame stays before the animation restarts
+constexpr std::size_t most_bytes = 280 * 1000;  // project pages load it at each visit
 constexpr std::size_t most_lanes = 6;
 
 const char* const style =
@@ -32,7 +32,7 @@ const char* const style =
     "@media(prefers-color-scheme:dark){.paper{fill:#17191d}.ink{fill:#e4e6e9}.quiet{fill:#969ba3}.ground{fill:#24282e}"
     ".line{stroke:#3a3f47}}";
 
-// Seen well on light and on dark paper, and apart by color-blind eyes.
+// Visible on light and dark backgrounds, and distinguishable for color-blind people.
 const char* owner_color(Owner owner) {
   return owner == Owner::keyed ? "#4274dd" : owner == Owner::driven ? "#d2408a" : "#ec9614";
 }
@@ -55,7 +55,7 @@ struct Drawing {
   }
 };
 
-/// The path of one frame of a figure; the same commands in each frame, so that they can be mixed.
+/// The path of one frame of a figure; the commands are the same in each frame, so that paths can be interpolated.
 std::string path_text(const Drawing& drawing, const Figure& figure, const std::vector<Vec2>& points) {
   static constexpr int box_order[] = {0, 1, 3, 2, 0, 4, 5, 1, 5, 7, 3, 7, 6, 2, 6, 4};
   std::string text;
@@ -87,7 +87,7 @@ struct Series {
   std::string values, times;
 };
 
-/// Values of kept frames and their shares of the picture's length; the last value stays to the end.
+/// Values of kept frames and their times as shares of the duration; the last value stays to the end.
 template <class ToText>
 Series series(const Drawing& drawing, const std::vector<std::size_t>& kept, ToText to_text) {
   Series result;
@@ -238,7 +238,7 @@ void draw_figure(Drawing& drawing, const Figure& figure) {
   drawing.svg.close();
 }
 
-/// Bodies that change hands, in order of the recording.
+/// Bodies that change their owner, in order of the recording.
 std::vector<std::size_t> lane_nodes(const Recording& recording) {
   std::vector<std::size_t> nodes;
   for (std::size_t i = 0; i < recording.nodes.size() && nodes.size() < most_lanes; ++i)
@@ -251,7 +251,7 @@ void draw_lane(Drawing& drawing, std::size_t index, double top) {
   drawing.svg.text(
       "text", {{"class", "quiet"}, {"x", plotting::px(margin)}, {"y", plotting::px(top + 12)}, {"font-size", "11"}},
       node.name.size() > 16 ? node.name.substr(0, 15) + "." : node.name);
-  // Hand-offs have exact times; frames only say between which of them.
+  // Hand-offs have exact times, while frames only bracket them.
   const auto exact = [&](std::size_t frame) {
     for (const HandOff& handoff : drawing.recording.handoffs)
       if (handoff.node == index && handoff.time <= drawing.recording.times[frame] &&
@@ -284,7 +284,7 @@ void draw_time_bar(Drawing& drawing, const std::vector<std::size_t>& lanes, doub
                             {"fill", "none"},
                             {"d", "M" + plotting::px(drawing.lane_x(drawing.start)) + " " + plotting::px(bottom) + "H" +
                                       plotting::px(drawing.lane_x(drawing.start + drawing.length))}});
-  // A name that would lie over the one before is left out.
+  // A name that would overlap the one before is left out.
   constexpr double letter_width = 5.4;
   double taken = -1e300;
   for (const StageEvent& event : drawing.recording.events) {

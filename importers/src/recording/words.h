@@ -1,12 +1,12 @@
 #pragma once
 
-// The words that stand for kinds of events in every file we write; those of owners and causes are public.
+// The words for kinds of events in all files written; those for owners and causes are public.
 
 #include <tweenfall/anim/clip.h>
 
 namespace tweenfall::recordings {
 
-/// Of what happens at a moment it is empty: that goes without saying.
+/// Empty for a moment, the usual kind.
 [[nodiscard]] const char* kind_word(EventKind kind) noexcept;
 
 }  // namespace tweenfall::recordings

@@ -15,13 +15,13 @@ bool is_control(char32_t code) {
   return code < 0x20 || (code >= 0x7f && code < 0xa0);
 }
 
-/// Code points that the Unicode Standard sets aside for ever (section 23.7).
+/// Code points that the Unicode Standard reserves permanently (section 23.7).
 bool is_noncharacter(char32_t code) {
   return (code & 0xfffe) == 0xfffe || (code >= 0xfdd0 && code <= 0xfdef);
 }
 
-/// What is not seen, but ends lines, hides letters or changes the direction of writing: Unicode's Default_Ignorable,
-/// Bidi_Control and line separators, less the selectors of variants, which belong to what they stand after.
+/// Invisible characters that end lines, hide letters or change the direction of writing: Unicode's Default_Ignorable,
+/// Bidi_Control and line separators, except variation selectors, which belong to the character before them.
 bool is_unseen(char32_t code) {
   static constexpr std::pair<char32_t, char32_t> unseen[] = {
       {0xad, 0xad},     {0x34f, 0x34f},   {0x61c, 0x61c},   {0x115f, 0x1160},  {0x17b4, 0x17b5},
@@ -119,7 +119,7 @@ std::string markup_text(std::string_view text) {
       out += "&gt;";
     else if (code == '"')
       out += "&quot;";
-    else if (code == '\r')  // which readers would take for a line's end
+    else if (code == '\r')  // which readers would take for a line end
       out += "&#13;";
     else if (!next.is_valid || (shown::is_control(code) && !is_blank) || shown::is_noncharacter(code))
       out += shown::replacement;

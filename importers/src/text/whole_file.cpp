@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
   throw std::runtime_error("cannot write " + file.string() + ": " + reason);
 }
 
-/// While it lives, signals that would end the process wait, so that what is half written can be removed before.
+/// Blocks signals that would end the process during its lifetime, so that a partial file can be removed first.
 class Signals {
  public:
   Signals() noexcept {
@@ -38,7 +38,7 @@ class Signals {
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
-  /// Whether one has come that was not kept waiting by others before.
+  /// Whether a signal has arrived that was not blocked before.
   [[nodiscard]] bool has_come() const noexcept {
     sigset_t pending;
     sigpending(&pending);
@@ -68,7 +68,7 @@ class Descriptor {
   int number_;
 };
 
-/// All of `content`, as long as `goes_on` says so. @returns what stopped it, 0 when nothing did.
+/// Writes `content` while `goes_on` returns true. @returns the error that stopped it, 0 for none.
 template <class GoesOn>
 int write_all(int descriptor, std::string_view content, GoesOn goes_on) {
   constexpr std::size_t most_at_once = std::size_t{1} << 20;
@@ -81,7 +81,7 @@ int write_all(int descriptor, std::string_view content, GoesOn goes_on) {
   return 0;
 }
 
-/// What is no plain file, such as a pipe or a device, takes what it is given.
+/// Writes directly to a file that is not a regular one, such as a pipe or a device.
 void write_into(const fs::path& file, std::string_view content) {
   Descriptor target(::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
   if (target.number() < 0) fail(file, std::strerror(errno));
@@ -89,7 +89,7 @@ void write_into(const fs::path& file, std::string_view content) {
   if (fault != 0 || !target.close()) fail(file, std::strerror(fault != 0 ? fault : errno));
 }
 
-/// A name that nobody can guess and plant something at.
+/// A name that nobody can guess to prepare something there.
 fs::path name_beside(const fs::path& target) {
   std::random_device random;
   std::string name = ".tweenfall-";
@@ -97,7 +97,7 @@ fs::path name_beside(const fs::path& target) {
   return target.parent_path() / (name + ".part");
 }
 
-/// Removes the file when it was not renamed.
+/// Removes the file unless it was renamed.
 struct Part {
   fs::path name;
   bool is_there = false;
@@ -106,7 +106,7 @@ struct Part {
   }
 };
 
-/// The file that stands for `file` in the end: a link's target, so that the link stays.
+/// The file actually written: for a link its target, so that the link stays.
 fs::path target_of(const fs::path& file, const fs::file_status& status) {
   std::error_code error;
   const fs::path target = fs::exists(status) ? fs::canonical(file, error) : fs::absolute(file, error);
@@ -134,7 +134,7 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
   const bool replaces = fs::exists(status);
   if (replaces) {
     if (::stat(target.c_str(), &replaced) != 0) fail(file, std::strerror(errno));
-    // The rights of root do not change what its owner wanted.
+    // The privileges of root do not override its owner's wish.
     if ((replaced.st_mode & 0222) == 0 || ::access(target.c_str(), W_OK) != 0)
       fail(file, "it is read-only; make it writable, or write to another file");
   }
@@ -144,7 +144,7 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
   int opened = -1;
   for (int attempt = 0; opened < 0 && attempt < 8; ++attempt) {
     part.name = name_beside(target);
-    // Nobody else reads what replaces a private file; a new file is as open as the user's files are.
+    // The replacement of a private file is not readable for others; a new file has the user's default permissions.
     opened = ::open(part.name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, replaces ? 0600 : 0666);
     if (opened < 0 && errno != EEXIST) break;
   }
@@ -153,7 +153,7 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
   Descriptor descriptor(opened);
   int fault = write_all(opened, content, [&] { return !signals.has_come(); });
   if (fault == 0 && replaces) {
-    // The owner stays where that may be kept; the group's rights go to no other group.
+    // The owner is kept if possible; the group's permissions are not given to another group.
     mode_t mode = replaced.st_mode & 0777;
     if (::fchown(opened, replaced.st_uid, replaced.st_gid) != 0 && ::fchown(opened, uid_t(-1), replaced.st_gid) != 0) {
       struct stat made {};
@@ -161,7 +161,7 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
     }
     if (::fchmod(opened, mode) != 0) fault = errno;
   }
-  // Not every file system can; then it keeps what it keeps.
+  // Not every file system supports fsync.
   if (fault == 0 && ::fsync(opened) != 0 && errno != EINVAL && errno != ENOTSUP) fault = errno;
   if (!descriptor.close() && fault == 0) fault = errno;
   if (fault == 0 && ::rename(part.name.c_str(), target.c_str()) != 0) fault = errno;

@@ -48,7 +48,7 @@ class Mirror {
  private:
   struct Joint {
     std::size_t partner = 0;
-    Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before * m(R) * after, R being the partner's
+    Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before * (partner's, mirrored) * after
     Vec3 offset{0, 0, 0};                        ///< its position at rest minus the mirrored one
     std::array<int, 3> axes{0, 1, 2};            ///< the partner's axes nearest to the images of its own
     Vec3 sizes{1, 1, 1};                         ///< ratios of its scale to the partner's along these axes

@@ -38,7 +38,7 @@ void add_matrix(std::vector<float>& out, const Mat3& matrix) {
   for (int column = 0; column < 3; ++column) add_vector(out, matrix.col(column));
 }
 
-/// One frame alone when all frames are alike, so that what stands still costs nothing.
+/// Keeps a single frame if all are equal, so that things at rest cost nothing.
 void drop_repeats(std::vector<float>& values, std::size_t stride) {
   for (std::size_t i = stride; i < values.size(); ++i)
     if (values[i] != values[i - stride]) return;
@@ -76,7 +76,7 @@ void append_turned(std::string& out, const std::vector<figures::ProfilePoint>& p
   out += "]";
 }
 
-/// All corners one after the other.
+/// All corners, one after the other.
 void append_triangles(std::string& out, const Mesh& mesh) {
   out += "\"corners\":[";
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -125,13 +125,13 @@ std::string owner_runs(const std::vector<Owner>& owners, const std::vector<std::
   return out + "]";
 }
 
-/// One part of a color; of what is no color, or brighter than floats can say, the nearest that is.
+/// One part of a color; invalid or extremely bright parts become the nearest usable number.
 double drawn(double part) {
   constexpr double brightest = 1e6;
   return part > -brightest ? std::min(part, brightest) : part < 0 ? -brightest : 0;
 }
 
-/// Numbers that `append` gives for each of `frames`, or for one alone when they never change.
+/// The numbers that `append` gives for each of `frames`, or only for one if they never change.
 template <class Append>
 std::vector<float> gathered(const std::vector<std::size_t>& frames, std::size_t stride, Append append) {
   std::vector<float> numbers;
@@ -141,7 +141,7 @@ std::vector<float> gathered(const std::vector<std::size_t>& frames, std::size_t 
   return numbers;
 }
 
-/// How the linear part changes beside turning, world axes, 1/s.
+/// The rate of the linear part without the rotation, world axes, 1/s.
 Mat3 stretching(const WorldMotion& world) {
   const Vec3& w = world.motion.twist.angular;
   Mat3 turning;
@@ -161,7 +161,7 @@ void append_motion(std::string& out, const NodeRecord& node, const std::vector<s
                   add_vector(to, node.twist[frame].angular);
                 })));
   const auto any = [&](auto differs) { return std::any_of(frames.begin(), frames.end(), differs); };
-  // The origin's own velocity, where it is not that of the center of mass.
+  // The origin's own velocity, if it differs from that of the center of mass.
   if (any([&](std::size_t frame) { return node.world[frame].motion.twist.linear != node.twist[frame].linear; }))
     append_quoted(out, "velocities",
                   recordings::base64(gathered(frames, 3, [&](std::vector<float>& to, std::size_t frame) {
@@ -269,7 +269,7 @@ void append_frame(std::string& out, const Pose& frame) {
   out += "]";
 }
 
-/// When a joint was gone; null where it held to the end.
+/// The time at which a joint was gone; null where it held to the end.
 std::string gone_text(const Recording& recording, const std::string& joint) {
   for (const StageEvent& event : recording.events)
     if (event.joint == joint) return number_text(event.time);

@@ -1,6 +1,6 @@
 #pragma once
 
-// What travels inside the page: the recording, the shapes and meshes, the key lanes.
+// The data inside the page: the recording, the shapes and meshes, the key lanes.
 
 #include <tweenfall/physics/stage/recording.h>
 
@@ -8,7 +8,7 @@
 
 namespace tweenfall::page {
 
-/// One JSON object; arrays of numbers as base64. Places are single precision: a page shows, it does not archive.
+/// One JSON object; arrays of numbers as base64, in single precision, which is enough for viewing.
 [[nodiscard]] std::string page_data(const Recording& recording, const StageDescription& stage);
 
 }  // namespace tweenfall::page

@@ -27,7 +27,7 @@ std::string runs(std::size_t count, const WordOf& word_of) {
   return out + "]";
 }
 
-/// Of one node frame by frame; null where it had no body.
+/// The details of one node, frame by frame; null where it had no body.
 using Course = std::vector<const NodeDetail*>;
 
 std::string node_json(NodeId node, const Course& course) {

@@ -7,7 +7,7 @@ namespace tweenfall::page {
 namespace {
 
 constexpr std::size_t least_frames = 60;
-constexpr std::size_t most_handoffs = 200;  // whose neighboring frames are kept
+constexpr std::size_t most_handoffs = 200;  // hand-offs whose neighboring frames are kept
 
 bool node_moves(const NodeRecord& node) {
   return std::any_of(node.world.begin(), node.world.end(), [&](const WorldMotion& world) {

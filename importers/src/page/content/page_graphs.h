@@ -1,12 +1,12 @@
 #pragma once
 
-// What a page tells of the graphs: parameters, and the states of machines, over time.
+// The graphs in a page: parameters, and the states of machines, over time.
 
 #include <tweenfall/physics/stage/recording.h>
 
 namespace tweenfall::page {
 
-/// Appends `,"graphs":[...]`, nothing where there are none. @param frames  those that the page has
+/// Appends `,"graphs":[...]`, nothing where there are none. @param frames the frames in the page
 void append_page_graphs(std::string& out, const Recording& recording, const std::vector<std::size_t>& frames);
 
 }  // namespace tweenfall::page

@@ -66,7 +66,7 @@ void append_mesh(std::string& out, const Mesh& mesh) {
 
 void append_page_meshes(std::string& out, const StageDescription& stage,
                         const std::map<std::string, std::size_t>& node_of) {
-  // Indices of the description's nodes, told as indices of the recording's; -1 for one that was not recorded.
+  // Converts indices of the description's nodes to those of the recording's; -1 for a node that was not recorded.
   const auto recorded = [&](std::size_t node) {
     if (node >= stage.nodes.size()) return std::string("-1");
     const auto found = node_of.find(stage.nodes[node].name);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Meshes, skins and where they hang, as the page wants them.
+// Meshes, skins and their nodes in the form of the page.
 
 #include <tweenfall/physics/stage/description.h>
 
@@ -9,8 +9,8 @@
 
 namespace tweenfall::page {
 
-/// Appends `,"meshes":[...],"skins":[...],"instances":[...]`. Instances and joints of nodes that `node_of` does not
-/// know are left out.
+/// Appends `,"meshes":[...],"skins":[...],"instances":[...]`. Instances and joints whose nodes are not in `node_of` are
+/// left out.
 void append_page_meshes(std::string& out, const StageDescription& stage,
                         const std::map<std::string, std::size_t>& node_of);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Particles as the page carries them.
+// Particles in the form of the page.
 
 #include <tweenfall/physics/stage/recording.h>
 
@@ -9,8 +9,8 @@
 
 namespace tweenfall::page {
 
-/// Adds the "particles" of a page: places and velocities frame by frame; of very many only every k-th, each through
-/// its whole life. Nothing where a recording has none.
+/// Adds the "particles" of a page: positions and velocities frame by frame; of very many particles only every k-th, for
+/// its whole life. Adds nothing if a recording has none.
 void append_page_particles(std::string& out, const Recording& recording, const StageDescription& stage,
                            const std::vector<std::size_t>& frames);
 

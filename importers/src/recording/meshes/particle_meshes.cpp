@@ -10,14 +10,15 @@ namespace tweenfall::recordings {
 
 namespace {
 
-/// A node that is one particle after another.
+/// A node that shows one particle after another.
 struct Slot {
   std::vector<Vec3> places;
   std::vector<char> shown;
-  std::size_t last = 0;  ///< frame in which it showed one
+  std::size_t last = 0;  ///< last frame in which it showed one
 };
 
-/// Between two particles a slot is gone for two frames: it shrinks where the one was, and grows where the other is.
+/// Between two particles a slot is hidden for two frames: it shrinks at the place of the first, and grows at that of
+/// the second.
 constexpr std::size_t pause = 3;
 
 std::vector<Slot> slots_of(const ParticlesRecord& particles, std::size_t frames) {
@@ -55,7 +56,7 @@ std::vector<Slot> slots_of(const ParticlesRecord& particles, std::size_t frames)
       slot.last = frame;
       now.emplace(there.numbers[i], next);
     }
-    // What has died stays where it was.
+    // A particle that has died stays where it was.
     for (const auto& [number, slot] : slot_of)
       if (now.count(number) == 0)
         for (std::size_t k = frame; k < frames; ++k) slots[slot].places[k] = slots[slot].places[frame - 1];
@@ -71,7 +72,7 @@ ConvexHull octahedron(double radius) {
   return ConvexHull(corners);
 }
 
-/// What has no radius is drawn by a part of the room that all take.
+/// Particles without a radius are drawn with a fraction of the size of the space that all take up.
 double radius_of(const ParticlesRecord& particles) {
   constexpr double part = 0.003;
   Vec3 low = Vec3::Constant(1e300), high = -low;

@@ -52,7 +52,7 @@ class SoftSkin {
  private:
   static constexpr auto none = static_cast<std::uint32_t>(-1);
 
-  /// What tears some day has corners of its own.
+  /// Triangles that will tear have corners of their own.
   void add_triangle(const std::array<std::uint32_t, 3>& triangle,
                     const std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t>& edges) {
     std::size_t torn_at = record_.positions.size();
@@ -107,7 +107,7 @@ class SoftSkin {
       const bool torn = frame >= record_.torn_at[i];
       for (const std::uint32_t end : {edge.a, edge.b}) {
         const Vec3 axis = unit(along[end], Vec3(0, 1, 0));
-        // Carried along from the edge before, so that the tube does not twist.
+        // Carried over from the edge before, so that the tube does not twist.
         const Vec3 from = side[edge.a] == Vec3::Zero() ? least_axis(axis) : side[edge.a];
         side[end] = unit(from - axis * axis.dot(from), unit(least_axis(axis).cross(axis), Vec3(1, 0, 0)));
         const Vec3 other = axis.cross(side[end]);
@@ -138,7 +138,7 @@ class SoftSkin {
   std::vector<std::size_t> torn_at_;  ///< by triangle
 };
 
-/// The frames that have a target, and the first: all, or as many as there is room for, evenly, with the last.
+/// The frames that have a target, and the first: all or, if there are too many, evenly spaced ones including the last.
 std::vector<std::size_t> frames_shown(std::size_t frames, std::size_t vertices) {
   const std::size_t room =
       std::clamp<std::size_t>(most_vectors / std::max<std::size_t>(2 * vertices, 1), 2, most_targets);
