@@ -59,7 +59,7 @@ std::string outcome(const Heard& heard) {
   if (heard.too_much) return "becomes too large to be read";
   if (!heard.in_time || heard.how_it_ended == "out of time") return "assimp takes too long over it";
   if (heard.said.starts_with('-')) return heard.said.substr(1);
-  return "assimp breaks down over it (" + (heard.how_it_ended.empty() ? "no answer" : heard.how_it_ended) +
+  return "assimp crashes on it (" + (heard.how_it_ended.empty() ? "no answer" : heard.how_it_ended) +
          "); the file is malformed";
 }
 

@@ -56,7 +56,7 @@ void Nodes::find_models(models::ModelProblems& problems) {
   for (const std::size_t model : models) {
     if (depth[model] != no_node) continue;
     problems.repair("node \"" + objects_[model].name + "\"",
-                    "hangs on nodes that hang on each other; it was hung on the scene");
+                    "is below nodes that are parents of each other; it was put below the scene");
     parent[model] = no_node;
     reach(model);
   }

@@ -78,7 +78,7 @@ void Objects::read_objects(const File& file, models::ModelProblems& problems) {
       if (const std::string_view twice = twice_told(object.properties); !twice.empty())
         problems.repair(source_.place(record.at), "the " + std::string(object.kind) + " \"" + object.name +
                                                       "\" lists \"" + utf8_or_latin1(twice) +
-                                                      "\" more than once; the last holds");
+                                                      "\" more than once; the last is used");
       if (by_id_.emplace(object.id, objects_.size()).second)
         objects_.push_back(std::move(object));
       else

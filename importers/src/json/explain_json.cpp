@@ -149,7 +149,7 @@ class Explainer {
     if (c == '"') return quoted();
     if ((c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.') return number();
     if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')) return word();
-    if (c == '\'') return here("expected " + wanted + ", found '''; texts stand in double quotes");
+    if (c == '\'') return here("expected " + wanted + ", found '''; texts must be in double quotes");
     return missing(wanted);
   }
 
@@ -164,7 +164,7 @@ class Explainer {
                         : small == "null" || small == "none" ? "null"
                                                              : nullptr;
     return here("expected a value, found " + std::string(word.substr(0, 40)) +
-                    (meant ? std::string("; write ") + meant : "; texts stand in quotes"),
+                    (meant ? std::string("; write ") + meant : "; texts must be in quotes"),
                 word.size());
   }
 
@@ -221,7 +221,7 @@ class Explainer {
     ++at_;
     if (next() != 'u') {
       if (done() || std::string_view("\"\\/bfnrt").find(next()) == std::string_view::npos)
-        return here("no escape of this name; found " + found() + " after '\\'");
+        return here("there is no such escape; found " + found() + " after '\\'");
       ++at_;
       return {};
     }

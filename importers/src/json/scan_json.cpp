@@ -140,7 +140,7 @@ class Surveyor {
     const std::string_view inside = text_.substr(at + 1, end - at - 1);
     constexpr std::size_t longest_shown = 40;
     note(at, end + 1 - at,
-         "texts stand in double quotes" +
+         "texts must be in double quotes" +
              (inside.size() <= longest_shown ? "; write " + in_quotes(inside) : std::string()));
     mend(at, 1, '"');
     mend(end, 1, '"');

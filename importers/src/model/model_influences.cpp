@@ -6,8 +6,8 @@ namespace tweenfall::models {
 
 void InfluenceTally::report(const std::string& place, ModelProblems& problems) const {
   if (unbound)
-    problems.repair(place, counted(unbound, "vertex has no weight and was hung on the first joint",
-                                   "vertices have no weight and were hung on the first joint"));
+    problems.repair(place, counted(unbound, "vertex has no weight and was bound to the first joint",
+                                   "vertices have no weight and were bound to the first joint"));
   if (negative)
     problems.repair(place, counted(negative, "vertex has a weight below 0, which was not read",
                                    "vertices have a weight below 0, which was not read"));

@@ -217,7 +217,7 @@ std::string portrait_svg(std::span<const ExpressionSystem> systems) {
     const bool ended = own.times.back() + 1.5 * system.step < system.duration;
     svg.text("text", {{"x", "14"}, {"y", px(top + 41)}, {"fill", pale_ink}},
              brief_text(own.times.back()) + " s in steps of " + brief_text(system.step) + " s" +
-                 (ended ? ", where it leaves all numbers" : ""));
+                 (ended ? ", where it is no longer finite" : ""));
     draw_portrait(svg, system, own, 0, top + portrait_head);
     if (system.energy) draw_energy(svg, system, own, portrait_width, top + portrait_head);
     top += row;

@@ -43,7 +43,7 @@ void check_node(const Recording& recording, std::size_t index) {
       throw RecordingFault(recording, index,
                            "node \"" + node.name + "\" is not at a finite place or speed at " +
                                number_text(recording.times[frame]) + " s (frame " + std::to_string(frame) +
-                               "); the simulation has gone astray there");
+                               "); the simulation has diverged there");
     if (!node.weights.empty() && !std::all_of(node.weights[frame].begin(), node.weights[frame].end(),
                                               [](double weight) { return std::isfinite(weight); }))
       throw RecordingFault(recording, index,

@@ -112,7 +112,7 @@ fs::path target_of(const fs::path& file, const fs::file_status& status) {
   const fs::path target = fs::exists(status) ? fs::canonical(file, error) : fs::absolute(file, error);
   if (error) fail(file, error.message());
   if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(file, error)))
-    fail(file, "it is a link to what is not there");
+    fail(file, "it is a link to a file that does not exist");
   return target;
 }
 

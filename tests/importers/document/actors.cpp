@@ -111,7 +111,7 @@ TEST_CASE("a control of no vehicle, or that says nothing, is told at its place")
   };
   says(R"({"at": 1, "control": {"vehicle": "rovr", "brake": 1}})",
        "i.json:2:34: error: there is no vehicle \"rovr\"; did you mean \"rover\"?");
-  says(R"({"at": 1, "control": {}})", "i.json:2:22: error: a control says a \"throttle\", a \"brake\" or a \"steer\"");
+  says(R"({"at": 1, "control": {}})", "i.json:2:22: error: a control needs a \"throttle\", a \"brake\" or a \"steer\"");
   says(R"({"at": 1, "control": {"brake": -0.5}})", "a number from 0 to 1");
   CHECK(control_faults(R"({"at": 1, "control": {"brake": -0.5}})", "").find("a control says") == std::string::npos);
   says(R"({"at": 1, "control": {"steer": 1.5}})", "a number from -1 to 1");

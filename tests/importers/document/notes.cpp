@@ -103,8 +103,8 @@ TEST_CASE("a track of sizes is noted where it scales what is drawn of a body and
   const std::string ball = "{\"shape\": {\"sphere\": {\"radius\": 0.1}}}",
                     squash = "[[0, 1], [1, [1.2, 0.7, 1.2]], [2, 1]]";
   const std::string own = noted(ball, "\"ball.scale\": " + squash);
-  CHECK(has(
-      own, "\"ball.scale\" scales what is drawn alone: the body of \"ball\" collides in the size that it has at rest"));
+  CHECK(has(own,
+            "\"ball.scale\" scales only what is drawn: the body of \"ball\" collides in the size that it has at rest"));
   CHECK(has(own, "(at /clips/c/tracks/ball.scale)"));
   CHECK(has(noted(ball, "\"ball.scale.y\": [[0, 1], [1, 0.5]]"), "\"ball.scale.y\" scales"));
   CHECK(has(noted(ball, "\"ball.scale\": {\"relative\": true, \"keys\": [[0, 1], [1, 2]]}"), "\"ball.scale\" scales"));

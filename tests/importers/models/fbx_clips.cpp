@@ -238,9 +238,9 @@ TEST_CASE("an FBX property that is listed or driven twice is as the file's other
   const Model model = load_model(folder.file("twice.fbx", file.text()));
   CHECK(near(position_of(model, "n").value(0.5), Vec3(1.5, 5, 6), 1e-12));
   REQUIRE(model.repairs.size() == 2);
-  CHECK(model.repairs[0].ends_with("the Model \"n\" lists \"Lcl Translation\" more than once; the last holds"));
+  CHECK(model.repairs[0].ends_with("the Model \"n\" lists \"Lcl Translation\" more than once; the last is used"));
   CHECK(model.repairs[1] ==
-        "clip \"move\": \"Lcl Translation\" of \"n\" is driven twice in one layer; the first holds");
+        "clip \"move\": \"Lcl Translation\" of \"n\" is driven twice in one layer; the first is used");
 }
 
 TEST_CASE("what an FBX clip has before 0 s is told of, by its own times or else by its keys") {

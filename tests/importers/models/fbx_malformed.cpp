@@ -83,7 +83,7 @@ TEST_CASE("a broken FBX text names the line: braces, quotes, words for numbers, 
   says(head + "}\n", ":4:1: error: a brace is closed that was not opened");
   says(head + "Objects: { A: \"b\n}", ":4:15: error: the quotation mark is not closed");
   says(head + "Objects: {\n V: *3 {\n  a: 1,2,three\n }\n}", ":6:10: error: expected a number, found \"three\"");
-  says("Objects: {\n}\n", "is no FBX file");
+  says("Objects: {\n}\n", "is not an FBX file");
   std::string deep = head;
   for (int i = 0; i < 100000; ++i) deep += "A: {";
   says(deep, "more than 64 deep");
@@ -106,7 +106,7 @@ TEST_CASE("an FBX mesh, skin or shape that points past its lists is refused") {
   CHECK(outcome("0,0,0,1,0,0,0,1", "0,1,-3").find("not three per point") != std::string::npos);
 }
 
-TEST_CASE("FBX nodes that hang on each other are hung on the scene, with a note") {
+TEST_CASE("FBX nodes that are parents of each other are put below the scene, with a note") {
   const ScratchFolder folder("fbx-cycle");
   FbxText file;
   const int a = file.object("Model", "Model::a", "Null", "");
@@ -115,7 +115,7 @@ TEST_CASE("FBX nodes that hang on each other are hung on the scene, with a note"
   const Model model = load_model(folder.file("cycle.fbx", file.text()));
   CHECK(model.nodes.size() == 2);
   REQUIRE(model.repairs.size() == 1);
-  CHECK(model.repairs[0].find("hang on each other") != std::string::npos);
+  CHECK(model.repairs[0].find("parents of each other") != std::string::npos);
 }
 
 TEST_CASE("FBX names that are not UTF-8 are taken for Latin-1") {

@@ -77,7 +77,7 @@ TEST_CASE("a read-only file is refused, for root too, and stays as it was") {
 TEST_CASE("a link to what is not there is refused and stays") {
   const ScratchFolder folder("dangling");
   fs::create_symlink("nowhere.txt", folder / "link.txt");
-  CHECK(refusal(folder / "link.txt").ends_with(": it is a link to what is not there"));
+  CHECK(refusal(folder / "link.txt").ends_with(": it is a link to a file that does not exist"));
   CHECK(fs::is_symlink(fs::symlink_status(folder / "link.txt")));
 }
 

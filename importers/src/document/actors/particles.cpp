@@ -69,7 +69,7 @@ const fields::Table<Source>& emitter_table() {
                                           "0"};
   static const fields::Table<Source> table(
       "an emitter",
-      {{"node", &ValueForms::name, "that it is on and moves with; absent: the world", node},
+      {{"node", &ValueForms::name, "it sits on this node and moves with it; absent: the world", node},
        {"position", &ValueForms::vector, "on that node or in the world, m", member<Source>(&Source::position)},
        {"direction", &ValueForms::axis, "in which particles leave, on the node", direction},
        {"rate",
@@ -80,11 +80,11 @@ const fields::Table<Source>& emitter_table() {
         {},
         {"flow", "per_second"}},
        {"speed", forces::strength_form, "m/s", curve(&Source::speed, "0"), false, {}, {"velocity"}},
-       {"inherit", &ValueForms::number, "share of the node's own velocity that they take along",
+       {"inherit", &ValueForms::number, "share of the node's velocity that the particles keep",
         member<Source>(&Source::inherit)},
        {"spread", bounded("an angle from 0 to 180 degrees", 0, false, 180),
         "half angle of the cone in which they leave, degrees", spread},
-       {"speed_spread", share_form(), "by up to this share they are faster or slower",
+       {"speed_spread", share_form(), "they are faster or slower by up to this share",
         member<Source>(&Source::speed_spread)},
        {"size", &ValueForms::not_negative, "radius of the ball in which they begin, m", member<Source>(&Source::size)},
        {"start", &ValueForms::stage_time, "stage time", seconds(&Source::start, "0")},
@@ -145,9 +145,9 @@ const fields::Table<ParticlesDescription>& particles_table() {
   const auto color = [](ParticlesDescription& particles) -> std::optional<Color>& { return particles.color; };
   static const fields::Table<ParticlesDescription> table(
       "a kind of particles",
-      {{"emitters", emitters_form, "what lets them go", {read_emitters}, true},
+      {{"emitters", emitters_form, "where they come from", {read_emitters}, true},
        {"life", &ValueForms::positive, "s from when one is let go", member_of(&ParticleSettings::life)},
-       {"life_spread", share_form(), "by up to this share lives are longer or shorter",
+       {"life_spread", share_form(), "lives are longer or shorter by up to this share",
         member_of(&ParticleSettings::life_spread)},
        {"mass", &ValueForms::positive, "of each, kg", member_of(&ParticleSettings::mass)},
        {"radius", &ValueForms::not_negative, "how far from its middle one touches bodies, m",
@@ -156,13 +156,13 @@ const fields::Table<ParticlesDescription>& particles_table() {
        {"friction", &ValueForms::not_negative, "with bodies", member_of(&ParticleSettings::friction)},
        {"gravity", &ValueForms::vector, "m/s^2; absent: the world's", gravity},
        fields::one_of<ParticlesDescription, Integrator>("integrator", "an integrator of particles",
-                                                        explicit_integrators(), "which way through a step",
+                                                        explicit_integrators(), "the method of integration",
                                                         of_settings(&ParticleSettings::integrator)),
-       {"forces", forces_form, "on them alone, of those that name no bodies", {read_forces, "[]"}},
+       {"forces", forces_form, "that act on them alone; only kinds that name no bodies", {read_forces, "[]"}},
        {"collide", &ValueForms::boolean, "whether they bounce off bodies",
         fields::member<ParticlesDescription>(&ParticlesDescription::collide)},
        {"most", bounded("a whole number from 1 to 1000000", 1, false, 1'000'000, true), "at a time", most},
-       {"seed", bounded("a whole number of at least 0", 0, false, 9e15, true), "of what is random about them", seed},
+       {"seed", bounded("a whole number of at least 0", 0, false, 9e15, true), "of their random numbers", seed},
        {"color", &ValueForms::color, "", fields::member<ParticlesDescription>(color)}});
   return table;
 }

@@ -78,7 +78,7 @@ const fields::Table<FieldBeingRead>& field_table() {
       "a field", {{"force", force_form, "its three components, N", {read_force}},
                   {"potential",
                    potential_form,
-                   "in place of it a potential energy, J: the force is how it falls",
+                   "instead: a potential energy, J; the force is its negative gradient",
                    {read_potential}},
                   {"parameters", parameters_form, "numbers that the expressions call by name", {read_parameters}}});
   return table;

@@ -39,7 +39,7 @@ const fields::Table<Described>& force_table() {
     std::vector<fields::Row<Described>> rows = kinds();
     rows.push_back({"bodies",
                     bodies_form,
-                    "with bodies, on whom alone it acts; absent: all",
+                    "nodes with bodies; it acts on these alone; absent: on all",
                     {read_bodies},
                     false,
                     useless_bodies,

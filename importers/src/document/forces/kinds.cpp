@@ -96,7 +96,7 @@ const Table& buoyancy_table() {
       "a liquid", {{"normal", &ValueForms::axis, "of its surface", axis_of_kind(&Buoyancy::normal)},
                    {"level", &ValueForms::number, "of its surface along the normal, m", of(&Buoyancy::level)},
                    {"density", &ValueForms::not_negative, "kg/m^3", of(&Buoyancy::density)},
-                   fields::part<Described>("drag", drag_table(), "of what is wholly under",
+                   fields::part<Described>("drag", drag_table(), "of a body that is wholly under the surface",
                                            [](Described& described) -> Drag& { return as<Buoyancy>(described).drag; }),
                    {"flow", &ValueForms::vector, "its velocity, m/s", of(&Buoyancy::flow)}});
   return table;
@@ -119,13 +119,14 @@ const Table& attractor_table() {
 }
 
 const Table& vortex_table() {
-  static const Table table("a vortex",
-                           {{"at", &ValueForms::vector, "on its axis, m", of(&Vortex::at)},
-                            {"axis", &ValueForms::axis, "", axis_of_kind(&Vortex::axis)},
-                            {"acceleration", &ValueForms::number, "around it, m/s^2 at 1 m", of(&Vortex::acceleration)},
-                            {"inward", &ValueForms::number, "so many times that toward it", of(&Vortex::inward)},
-                            {"power", power_form(), "of the distance, with which it falls off", of(&Vortex::power)},
-                            {"softening", &ValueForms::not_negative, "m", of(&Vortex::softening)}});
+  static const Table table(
+      "a vortex",
+      {{"at", &ValueForms::vector, "on its axis, m", of(&Vortex::at)},
+       {"axis", &ValueForms::axis, "", axis_of_kind(&Vortex::axis)},
+       {"acceleration", &ValueForms::number, "around it, m/s^2 at 1 m", of(&Vortex::acceleration)},
+       {"inward", &ValueForms::number, "toward the axis, as a multiple of that around it", of(&Vortex::inward)},
+       {"power", power_form(), "of the distance, with which it falls off", of(&Vortex::power)},
+       {"softening", &ValueForms::not_negative, "m", of(&Vortex::softening)}});
   return table;
 }
 

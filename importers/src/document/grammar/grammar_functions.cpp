@@ -12,7 +12,7 @@ std::string parameter_fault(std::string_view name) {
   bool fits = !name.empty() && is_letter(name.front());
   for (const char c : name) fits = fits && (is_letter(c) || (c >= '0' && c <= '9'));
   return fits ? std::string()
-              : "a parameter's name has letters, digits and \"_\" and starts with no digit; found " +
+              : "a parameter's name has letters, digits and \"_\" and does not start with a digit; found " +
                     json::in_quotes(name);
 }
 

@@ -47,7 +47,8 @@ const Table<RetargetPair>& retarget_pair_table() {
   static const Table<RetargetPair> table(
       "a pair", {{"source", &ValueForms::name, "a name or pattern", member<RetargetPair>(&RetargetPair::source), true},
                  {"target", &ValueForms::name, "a name or pattern", member<RetargetPair>(&RetargetPair::target), true},
-                 {"moves", &ValueForms::boolean, "its way from rest too", member<RetargetPair>(&RetargetPair::moves)}});
+                 {"moves", &ValueForms::boolean, "whether its movement from rest is copied, too",
+                  member<RetargetPair>(&RetargetPair::moves)}});
   return table;
 }
 
@@ -123,17 +124,17 @@ const Table<RootMotionPose>& root_motion_table() {
   static const Table<Pose> table(
       "a root motion",
       {{"node", &ValueForms::name, "that carries the figure, such as the hips", member<Pose>(&Pose::node), true},
-       {"accumulate", &ValueForms::boolean, "its way goes on from loop to loop and from clip to clip",
+       {"accumulate", &ValueForms::boolean, "whether its path continues from loop to loop and from clip to clip",
         member<Pose>(&Pose::accumulates)},
-       {"onto", &ValueForms::name, "a node above it, which is carried instead; absent: the figure goes on the spot",
+       {"onto", &ValueForms::name, "a node above it that is moved instead; absent: the figure walks on the spot",
         member<Pose>(&Pose::onto)},
-       {"horizontal", &ValueForms::boolean, "its way over the ground",
+       {"horizontal", &ValueForms::boolean, "its movement over the ground",
         member<Pose>([](Pose& pose) -> bool& { return pose.parts.horizontal; })},
-       {"vertical", &ValueForms::boolean, "its way up and down",
+       {"vertical", &ValueForms::boolean, "its movement up and down",
         member<Pose>([](Pose& pose) -> bool& { return pose.parts.vertical; })},
        fields::one_of<Pose, Turn>("turn", "a turn: \"none\", \"yaw\" or \"all\"",
                                   {{"none", Turn::none}, {"yaw", Turn::yaw}, {"all", Turn::all}},
-                                  "what of its turn: the part about up, or all",
+                                  "what part of its rotation: none, that about up, or all",
                                   [](Pose& pose) -> Turn& { return pose.parts.turn; }),
        axis_row<Pose>("up", "absent: y", [](Pose& pose) -> Vec3& { return pose.parts.up; }),
        weight_row<Pose>()});

@@ -94,7 +94,7 @@ const Table<LookAtPose>& look_at_table() {
        angle_row<Pose>("limit", half_a_turn("an angle from 0 to 180 degrees"), "of the turning, degrees", "180",
                        &Pose::limit),
        angle_row<Pose>("ease", bounded("an angle of 0 or more degrees", 0, false),
-                       "over which it comes to a halt before the limit, degrees; absent: 0.2 rad", "", &Pose::ease),
+                       "over which it slows to a stop before the limit, degrees; absent: 0.2 rad", "", &Pose::ease),
        weight_row<Pose>()});
   return table;
 }
@@ -118,8 +118,8 @@ Row<Limit> angles_row(const char* name, const char* help, double Limit::*low, do
     if (value.items().size() != 2) return;
     const double least = value.items()[0].number(), most = value.items()[1].number();
     if (least > most) {
-      building.problems.add(
-          value, "limits stand in order, the low one first; " + number_text(least) + " is above " + number_text(most));
+      building.problems.add(value, "limits must be in order, the low one first; " + number_text(least) + " is above " +
+                                       number_text(most));
       return;
     }
     limit.*low = radians(least);
@@ -177,7 +177,8 @@ const Table<ReachPose>& reach_table() {
                                                     &Pose::method),
                   {"sweeps", bounded("a whole number from 0 to 1000", 0, false, 1000, true), "of the method",
                    member<Pose>(&Pose::sweeps)},
-                  {"leaps", &ValueForms::boolean, "to what limits keep it from otherwise", member<Pose>(&Pose::leaps)},
+                  {"leaps", &ValueForms::boolean, "may jump to targets that its limits otherwise keep it from",
+                   member<Pose>(&Pose::leaps)},
                   weight_row<Pose>()});
   return table;
 }
@@ -258,23 +259,22 @@ const Table<FeetPose>& feet_table() {
   number.kind = Form::Kind::number;
   number.what = "a height in m";
   static const Table<Pose> table(
-      "feet",
-      {joint_row<Pose>("pelvis", "a node above all legs; it is moved", &Pose::pelvis),
-       {"legs", legs_form, "of which each end is a foot", {legs}, true},
-       {"ground",
-        &ValueForms::name,
-        "a node whose body is a height field, over which the feet go",
-        {read_ground},
-        true},
-       number_row<Pose>("floor", number, "height of the floor on which the base walks, m", "0", &Pose::floor),
-       {"lowest", &ValueForms::not_negative, "by how far the pelvis goes down at most, m", member<Pose>(&Pose::lowest)},
-       {"highest", &ValueForms::not_negative, "and up", member<Pose>(&Pose::highest)},
-       {"evenness", &ValueForms::not_negative, "over which the pelvis turns from one foot to another as the lowest, m",
-        member<Pose>(&Pose::evenness)},
-       angle_row<Pose>("tilt", bounded("an angle from 0 to 90 degrees", 0, false, 90),
-                       "of the feet at most, degrees; absent: 0.8 rad", "", &Pose::tilt),
-       {"softness", softness_form, "of the legs", member<Pose>(&Pose::softness)},
-       weight_row<Pose>()});
+      "feet", {joint_row<Pose>("pelvis", "a node above all legs; it is moved", &Pose::pelvis),
+               {"legs", legs_form, "each ends in a foot", {legs}, true},
+               {"ground",
+                &ValueForms::name,
+                "a node whose body is a height field, over which the feet go",
+                {read_ground},
+                true},
+               number_row<Pose>("floor", number, "height of the floor on which the base walks, m", "0", &Pose::floor),
+               {"lowest", &ValueForms::not_negative, "how far the pelvis may go down, m", member<Pose>(&Pose::lowest)},
+               {"highest", &ValueForms::not_negative, "how far it may go up, m", member<Pose>(&Pose::highest)},
+               {"evenness", &ValueForms::not_negative, "distance over which one foot replaces another as the lowest, m",
+                member<Pose>(&Pose::evenness)},
+               angle_row<Pose>("tilt", bounded("an angle from 0 to 90 degrees", 0, false, 90),
+                               "of the feet at most, degrees; absent: 0.8 rad", "", &Pose::tilt),
+               {"softness", softness_form, "of the legs", member<Pose>(&Pose::softness)},
+               weight_row<Pose>()});
   return table;
 }
 

@@ -36,9 +36,9 @@ const Table<GraphCondition>& condition_table() {
   static const Table<GraphCondition> table(
       "a condition",
       {{"parameter", &ValueForms::name, "of the graph", fields::member<GraphCondition>(&GraphCondition::name)},
-       comparison("above", When::above, "than which it is greater"),
-       comparison("below", When::below, "than which it is less"),
-       comparison("equals", When::equals, "which it is exactly"),
+       comparison("above", When::above, "it is greater than this"),
+       comparison("below", When::below, "it is less than this"),
+       comparison("equals", When::equals, "it is exactly this"),
        {"event", &ValueForms::name, "that was sent, or happened in a clip of the state", {event}},
        {"time_in_state", &ValueForms::not_negative, "seconds since the state was entered", {seconds}},
        {"clip_end", yes(), "all clips of the state have ended", {end}}});
@@ -168,7 +168,7 @@ const Table<MachinePose>& machine_table() {
       "a machine",
       {{"start", &ValueForms::name, "the first state", fields::member<MachinePose>(&MachinePose::start), true},
        {"states", named_states_form, "the pose of each", {read_states}, true},
-       {"transitions", transitions_form, "the first that may be taken is", {read_transitions, "[]"}}});
+       {"transitions", transitions_form, "the first one that may be taken is taken", {read_transitions, "[]"}}});
   return table;
 }
 

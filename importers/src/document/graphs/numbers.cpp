@@ -31,7 +31,7 @@ const Form* place_form(FormStore& store, const ValueForms& values) {
   fixed.fewest = 3;
   const Form* numbers = store.add(std::move(fixed));
   Form at_node = object_of("a place at a node: {\"node\", \"at\"}",
-                           {{"node", values.name, "in whose space the place is told", true},
+                           {{"node", values.name, "in whose space the place is given", true},
                             {"at", numbers, "m; absent: the node itself", false, "[0,0,0]"}});
   at_node.on_one_line = true;
   return store.add(choice_of("a node's name, a place in the world [x, y, z], or {\"node\", \"at\"}",

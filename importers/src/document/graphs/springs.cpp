@@ -72,9 +72,9 @@ const Table<JigglePose>& jiggle_table() {
     for (Row<Pose>& row : spring_rows<Pose>([](Pose& pose) -> SpringSettings& { return pose.spring; }, true))
       rows.push_back(std::move(row));
     rows.push_back(angle_row<Pose>("limit", bounded("an angle from 0 to 180 degrees", 0, false, 180),
-                                   "by which a joint swings away at most, degrees", "180", &Pose::limit));
+                                   "the farthest that a joint swings, degrees", "180", &Pose::limit));
     rows.push_back(angle_row<Pose>("ease", bounded("an angle of 0 or more degrees", 0, false),
-                                   "over which it comes to a halt before the limit, degrees; absent: 0.2 rad", "",
+                                   "over which it slows to a stop before the limit, degrees; absent: 0.2 rad", "",
                                    &Pose::ease));
     rows.push_back(weight_row<Pose>());
     return rows;

@@ -177,14 +177,14 @@ const Table<Asked<playing::SetSpeed>>& speed_table() {
 
 const Table<Asked<playing::Seek>>& seek_table() {
   using Seek = Asked<playing::Seek>;
-  static const Table<Seek> table("a seek",
-                                 {play_row<Seek>(),
-                                  {"to", &ValueForms::not_negative, "clip time",
-                                   fields::member<Seek>([](Seek& seek) -> double& { return seek.action.time; }), true},
-                                  {"events", &ValueForms::boolean, "whether what lies between fires",
-                                   fields::member<Seek>([](Seek& seek) -> bool& { return seek.action.events; })},
-                                  {"fade", &ValueForms::not_negative, "seconds in which what showed fades; 0: a jump",
-                                   fields::member<Seek>([](Seek& seek) -> double& { return seek.action.fade; })}});
+  static const Table<Seek> table(
+      "a seek", {play_row<Seek>(),
+                 {"to", &ValueForms::not_negative, "clip time",
+                  fields::member<Seek>([](Seek& seek) -> double& { return seek.action.time; }), true},
+                 {"events", &ValueForms::boolean, "whether events in between fire",
+                  fields::member<Seek>([](Seek& seek) -> bool& { return seek.action.events; })},
+                 {"fade", &ValueForms::not_negative, "seconds in which the pose before fades out; 0: a jump",
+                  fields::member<Seek>([](Seek& seek) -> double& { return seek.action.fade; })}});
   return table;
 }
 

@@ -186,7 +186,7 @@ class Reader {
     }
     // Wrong values are reported at their own places.
     if (value.members().size() == (controlled.place ? 1U : 0U))
-      building_.problems.add(value, "a control says a \"throttle\", a \"brake\" or a \"steer\"");
+      building_.problems.add(value, "a control needs a \"throttle\", a \"brake\" or a \"steer\"");
     inputs.push_back({time_, controlled.input});
   }
 
@@ -256,17 +256,17 @@ struct InputGrammar {
       names.push_back(name);
     };
     add("start", start_table(), "a play begins, or begins again");
-    add("stop", stop_table(), "it is over");
-    add("fade", fade_table(), "its weight goes to another");
-    add("weigh", weigh_table(), "its weight is another");
-    add("speed", speed_table(), "its clock goes on at another speed");
-    add("seek", seek_table(), "its clock is elsewhere");
+    add("stop", stop_table(), "a play ends");
+    add("fade", fade_table(), "its weight fades to another value");
+    add("weigh", weigh_table(), "its weight changes");
+    add("speed", speed_table(), "its speed changes");
+    add("seek", seek_table(), "its clock jumps to another time");
     add("release", release_table(), "a body is let go");
     add("recover", recover_table(), "it follows its path again");
     add("hand_over", hand_over_table(), "a body gets any owner, at once or along a ramp");
     add("push", push_table(), "an impulse");
-    add("set", set_table(), "a parameter of a graph is another number, true or false");
-    add("send", send_table(), "an event comes to a graph");
+    add("set", set_table(), "a parameter of a graph becomes another number, true or false");
+    add("send", send_table(), "an event is sent to a graph");
     add("control", control_table(), "a vehicle is driven from outside from then on");
     std::string what = "an input: {\"at\"} and one of ";
     for (const std::string& name : names) what += (name == names.front() ? "" : ", ") + json::in_quotes(name);

@@ -94,8 +94,8 @@ std::optional<Limits> read_limits(const json::Value& value, double unit, Buildin
     soft_table().read(value, limits, building);
   }
   if (limits.low > limits.high)
-    building.problems.add(value, "limits stand in order, the low one first; " + number_text(limits.low) + " is above " +
-                                     number_text(limits.high));
+    building.problems.add(value, "limits must be in order, the low one first; " + number_text(limits.low) +
+                                     " is above " + number_text(limits.high));
   limits.low *= unit;
   limits.high *= unit;
   return limits;

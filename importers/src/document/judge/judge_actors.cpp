@@ -54,9 +54,10 @@ void judge_soft(Building& building, const SoftDescription& soft) {
     return std::holds_alternative<Wind>(force.force) && force.bodies.empty();
   };
   if (soft.soft.air_drag > 0 && std::ranges::none_of(building.stage.forces, reaches))
-    building.problems.note(below(place, {"air_drag"}),
-                           "\"air_drag\" waits for a wind among the world's forces that names no bodies; in still air "
-                           "for one of velocity 0");
+    building.problems.note(
+        below(place, {"air_drag"}),
+        "\"air_drag\" acts only with a wind among the world's forces that names no bodies; for still air, "
+        "one of velocity 0");
   if (!(soft.soft.thickness > 0) || soft.soft.edges.empty()) return;
   double space = 0;
   for (const SoftEdge& edge : soft.soft.edges)
@@ -64,7 +65,7 @@ void judge_soft(Building& building, const SoftDescription& soft) {
              static_cast<double>(soft.soft.edges.size());
   if (soft.soft.thickness < 0.5 * space)
     building.problems.note(below(place, {"thickness"}), "its nodes are " + brief_text(space) +
-                                                            " m from each other: by so little a \"thickness\" it "
+                                                            " m from each other: with so small a \"thickness\" it "
                                                             "slips through itself between them");
 }
 

@@ -88,9 +88,10 @@ void note_recorded_events(Building& building, const json::Value& place, const Pl
   const StageDescription& stage = building.stage;
   // Half of it, because `too_many_events` allows for twice as many.
   if (!too_many_events(play, stage.clips[play.clip], usual / 2).empty())
-    building.problems.note(place, "has more than a million events within " + brief_text(usual) +
-                                      " s, the usual length of a recording, and none holds so many: lengthen its "
-                                      "loop, or end the recording earlier");
+    building.problems.note(place,
+                           "has more than a million events within " + brief_text(usual) +
+                               " s, the usual length of a recording, and no recording holds so many: lengthen its "
+                               "loop, or end the recording earlier");
 }
 
 // Keys after the stated end of a clip are never reached.

@@ -66,7 +66,7 @@ std::vector<Resized> resized_by(const Building& building, const Clip& clip) {
 }
 
 std::string said_of(const Track& track, const std::string& body, std::size_t others) {
-  const std::string name = json::in_quotes(track.name()) + " scales what is drawn alone: the ";
+  const std::string name = json::in_quotes(track.name()) + " scales only what is drawn: the ";
   if (others == 0) return name + "body of " + json::in_quotes(body) + " collides in the size that it has at rest";
   return name + "bodies of " + json::in_quotes(body) + " and " + std::to_string(others) +
          (others == 1 ? " other" : " others") + " collide in the sizes that they have at rest";

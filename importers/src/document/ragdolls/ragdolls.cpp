@@ -66,7 +66,7 @@ const fields::Table<Read>& table() {
       "a ragdoll",
       {{"mass", bounded("a mass in kg, above 0", 0, true), "of the whole figure, kg",
         fields::member<Read>(of_settings(&RagdollSettings::mass))},
-       {"smallest", bounded("a part of the figure from 0 to 1", 0, false, 1), "what is less has no body of its own",
+       {"smallest", bounded("a part of the figure from 0 to 1", 0, false, 1), "smaller parts have no body of their own",
         fields::member<Read>(of_settings(&RagdollSettings::smallest))},
        {"swing",
         bounded("degrees from 0 to 180", 0, false, 180),

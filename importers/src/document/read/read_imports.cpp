@@ -108,7 +108,7 @@ class Importer {
     // For a missing file a relative path would stay relative, and not lie in any folder.
     const fs::path base = fs::weakly_canonical(fs::current_path() / building_.folder, fault);
     const fs::path file = fs::weakly_canonical(base / fs::path(place.text()), fault);
-    if (fault) return tell(place, json::in_quotes(place.text()) + " is no path of a file: " + fault.message());
+    if (fault) return tell(place, json::in_quotes(place.text()) + " is not a valid file path: " + fault.message());
     if (!building_.reading.options.allow_outside && !is_below(file, base))
       return tell(place, json::in_quotes(place.text()) + " lies outside the document's folder; move the file into it");
     if (fs::exists(file, fault) && !fs::is_regular_file(file, fault))

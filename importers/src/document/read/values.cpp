@@ -150,7 +150,7 @@ std::optional<Quat> rotation_of(const json::Value& value, const EulerOrder& orde
     }
     const double size = parts.cwiseAbs().maxCoeff();
     if (size == 0) {
-      problems.add(quat, "a quaternion of length 0 is no rotation; no turn at all is [0, 0, 0, 1]");
+      problems.add(quat, "a quaternion of length 0 is not a rotation; write [0, 0, 0, 1] for no turn");
       return {};
     }
     const Vec4 scaled = parts / size;

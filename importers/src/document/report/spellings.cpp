@@ -114,7 +114,7 @@ std::string angles_meant(const json::Value& value) {
     known += part ? 1 : 0;
   }
   if (known != value.members().size()) return {};
-  return "a rotation says how it is told" +
+  return "a rotation must say how it is given" +
          said("{\"" + std::string(value.find("w") ? "quat" : "euler") + "\": [" + angles + "]}");
 }
 

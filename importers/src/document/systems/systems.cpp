@@ -174,7 +174,7 @@ void take_portrait(const Draft& draft, ExpressionSystem& system, Problems& probl
 bool check_way(const json::Value& value, const ExpressionSystem& system, const FirstOrderPath& path,
                Problems& problems) {
   if (path.times.back() + 0.5 * system.step >= system.duration) return true;
-  problems.add(value, "the state leaves all numbers after " + brief_text(path.times.back()) +
+  problems.add(value, "the state is no longer finite after " + brief_text(path.times.back()) +
                           " s; take shorter steps, another integrator or a shorter duration");
   return false;
 }

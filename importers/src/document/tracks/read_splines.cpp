@@ -51,7 +51,7 @@ class SplineReader {
     for (const char* name : {"start", "end"}) {
       const json::Value end = usable(settings, name);
       if (!end || !end.is(Kind::text)) continue;
-      problems_.add(end, "only a spline of the ease \"natural\" can be without a knot next to its end");
+      problems_.add(end, "only a spline with the ease \"natural\" can be \"not-a-knot\" at an end");
       return {};
     }
     return cubic_spline<T>(times, points, rule->scaled(unit_), ends);

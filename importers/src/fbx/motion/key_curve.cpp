@@ -111,7 +111,7 @@ class CurveReader {
       }
     }
     if (at < keys.size() && !flags.empty())
-      fail("tells the kinds of " + std::to_string(at) + " of its " + std::to_string(keys.size()) + " keys");
+      fail("says the kinds of only " + std::to_string(at) + " of its " + std::to_string(keys.size()) + " keys");
   }
 
   /// Of keys at the same time the last is kept, and keys that go back in time are left out.

@@ -109,7 +109,7 @@ class StackReader {
     for (const Connection& curve : objects_.to(node)) {
       if (objects_[curve.from].kind != "AnimationCurve") continue;
       const std::size_t part = number ? 0 : part_of(curve.property);
-      if (std::exchange(given[part], true)) tell_of_two(target, "has two curves for one number; the last holds");
+      if (std::exchange(given[part], true)) tell_of_two(target, "has two curves for one number; the last is used");
       if (auto read = key_curve(objects_[curve.from], objects_, 1, problems_)) driver.parts[part] = *read;
     }
     if (target.property == "Weight") {
@@ -120,7 +120,7 @@ class StackReader {
     }
     std::vector<Driver>& drivers = stack.drivers[{target.to, std::string(target.property)}];
     if (!drivers.empty() && drivers.back().layer == place)
-      return tell_of_two(target, "is driven twice in one layer; the first holds");
+      return tell_of_two(target, "is driven twice in one layer; the first is used");
     drivers.push_back(std::move(driver));
   }
 

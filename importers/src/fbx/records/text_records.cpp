@@ -29,7 +29,7 @@ class TextReader {
     read_list(file.root, 0);
     const Record* header = file.root.find("FBXHeaderExtension");
     const Record* version = header ? header->find("FBXVersion") : nullptr;
-    if (!version) source_.fail(0, "is no FBX file: it has no FBXHeaderExtension with an FBXVersion");
+    if (!version) source_.fail(0, "is not an FBX file: it has no FBXHeaderExtension with an FBXVersion");
     file.version = version->whole(0, 0);
     return file;
   }

@@ -32,8 +32,8 @@ std::optional<Combine> combine_of(const Fields& material, const char* name) {
   if (word == "maximum") return Combine::maximum;
   if (word == "multiply") return Combine::multiply;
   material.problems().repair(material.place_of(name), "\"" + word +
-                                                          "\" is none of average, minimum, maximum and multiply; "
-                                                          "the usual way is taken");
+                                                          "\" is not average, minimum, maximum or multiply; "
+                                                          "the default is used");
   return std::nullopt;
 }
 
@@ -156,7 +156,7 @@ class BodyReader {
     body.keyed = immovable && scene_.animated[body.node];
     body.body.fixed = immovable && !body.keyed;
     if (body.body.fixed && !(body.body.twist.linear.isZero(0) && body.body.twist.angular.isZero(0)))
-      motion.problems().repair(motion.place(), "moves on without end, unmoved by others, and stands still here");
+      motion.problems().repair(motion.place(), "has a velocity that nothing can change; it stands still here");
     if (immovable) body.body.twist = {};
     if (motion.has("gravityFactor") && number_of(motion, "gravityFactor") != 1.0)
       motion.problems().repair(motion.place_of("gravityFactor"), "was not read: bodies fall alike");

@@ -118,12 +118,12 @@ std::optional<std::string> buffer_bytes(const Fields& buffer, const std::filesys
       return std::nullopt;
     }
     auto bytes = from_base64(std::string_view(uri).substr(comma + 1));
-    if (!bytes) problems.add(buffer.place_of("uri"), "holds a letter that base64 does not have");
+    if (!bytes) problems.add(buffer.place_of("uri"), "holds a character that base64 does not have");
     return bytes;
   }
   const std::string name = without_percent_signs(uri);
   if (name.find('\0') != std::string::npos) {
-    problems.add(buffer.place_of("uri"), "\"" + uri.substr(0, 80) + "\" holds a byte of zero, which no name has");
+    problems.add(buffer.place_of("uri"), "\"" + uri.substr(0, 80) + "\" holds a zero byte, which no name has");
     return std::nullopt;
   }
   // A hostile file must not be able to read the rest of the disk.
