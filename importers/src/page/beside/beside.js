@@ -1,14 +1,14 @@
-// Two pages side by side with one clock: what is done to one, time, playing and looking, is done to the other.
+// Two pages side by side with one clock. Changes of the time, of playing and of the view in one are made in the other.
 
 const {before, after} = JSON.parse(document.getElementById("pages").textContent);
 const frames = Array.from(document.querySelectorAll("iframe"));
 frames.forEach((frame, i) => { frame.srcdoc = before[i] + after; });
 
-// What is looked at in one way in both; of a choice, nodes that both have.
+// The settings that both pages share. A chosen node is shared if both pages have it.
 const shared = ["playing", "speed", "loop", "snap", "byOwner", "trail", "skeleton", "colliders", "joints", "contacts", "islands",
   "boxes", "sleepers", "follow", "local"];
 
-// While one page takes over what the other did, it does not answer.
+// While one page takes over a change from the other, it does not send the change back.
 let passing = false;
 function pass(action) {
   if (passing) return;
@@ -19,7 +19,6 @@ function pass(action) {
 function follow(other, changed, page) {
   const values = {};
   for (const name of shared) if (name in changed) values[name] = changed[name];
-  // The loop of a clock that is longer is not stopped where the shorter one ends.
   if (Object.keys(values).length) other.set(values);
   if ("time" in changed) other.seek(page.time);
   if ("chosen" in changed && (page.chosen === null || other.nodes.includes(page.chosen))) other.choose(page.chosen);
@@ -27,7 +26,7 @@ function follow(other, changed, page) {
 
 function join(pages) {
   const last = page => page.times[page.times.length - 1];
-  // The one that lasts longer has the clock.
+  // The longer recording has the clock.
   const [first, second] = last(pages[1]) > last(pages[0]) ? [pages[1], pages[0]] : pages;
   second.set({led: true});
   second.seek(first.time);
@@ -37,7 +36,7 @@ function join(pages) {
   }
   if (first.nodes.includes(second.chosen)) first.choose(second.chosen);
   second.look = first.look;
-  // #t=0.8&node=ball opens both at that time, with that node chosen where there is one.
+  // #t=0.8&node=ball opens both at that time, with that node chosen in each page that has it.
   const asked = new URLSearchParams(location.hash.slice(1)), node = asked.get("node");
   for (const page of pages) if (page.nodes.includes(node)) page.choose(node);
   if (asked.has("t") && Number.isFinite(Number(asked.get("t")))) first.seek(Number(asked.get("t")));

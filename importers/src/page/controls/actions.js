@@ -1,8 +1,8 @@
-// What keys do: one list, from which the keyboard and the help sheet follow.
+// What the keys do: one list, from which the keyboard handler and the help sheet are made.
 
 const toggle = name => change({[name]: !state[name]});
 
-// [keys, words, action]; keys as `event.key` has them.
+// [keys, words, action, name shown for the key]; keys as `event.key` has them.
 const actionList = timeline => [
   ["Time", [
     [[" "], "play or pause", () => (state.playing ? pause() : play()), "space"],
@@ -10,24 +10,24 @@ const actionList = timeline => [
     [["ArrowRight"], "one frame forward; with shift ten", event => step(event.shiftKey ? 10 : 1), "\u2192"],
     [["Home"], "to the start", () => toFrame(0)],
     [["End"], "to the end", () => { pause(); toFrame(recording.frameCount - 1); }],
-    [[","], "to the key before", () => toNext(allKeyTimes(), -1)],
+    [[","], "to the previous key", () => toNext(allKeyTimes(), -1)],
     [["."], "to the next key", () => toNext(allKeyTimes(), 1)],
-    [["["], "to the event or hand-off before", () => toNext(allEventTimes(), -1)],
+    [["["], "to the previous event or hand-off", () => toNext(allEventTimes(), -1)],
     [["]"], "to the next event or hand-off", () => toNext(allEventTimes(), 1)],
     [["l"], "play again from the start, or stop at the end", () => toggle("loop")],
   ]],
   ["View", [
     [["a"], "show everything", frameAll],
     [["f"], "show the chosen node", frameChosen],
-    [["g"], "go along with the chosen node", () => toggle("follow")],
-    [["c"], "colors of owners, or own colors", () => toggle("byOwner")],
+    [["g"], "follow the chosen node", () => toggle("follow")],
+    [["c"], "color bodies by owner, or in their own colors", () => toggle("byOwner")],
     [["t"], "path of the chosen node", () => toggle("trail")],
     [["b"], "lines between nodes", () => toggle("skeleton")],
     [["x"], "shapes that collide", () => toggle("colliders")],
     [["j"], "joints: ends, axes and limits", () => toggle("joints")],
     [["k"], "contacts: points and normals", () => toggle("contacts")],
     [["i"], "islands: one color for bodies solved together", () => toggle("islands")],
-    [["w"], "boxes in which pairs are looked for", () => toggle("boxes")],
+    [["w"], "boxes of the search for pairs (broad phase)", () => toggle("boxes")],
     [["z"], "sleeping bodies faded", () => toggle("sleepers")],
   ]],
   ["Nodes and timeline", [
@@ -35,13 +35,13 @@ const actionList = timeline => [
     [["ArrowDown"], "choose the node below", () => chooseNext(timeline, 1), "\u2193"],
     [["Escape"], "choose nothing; close this sheet", () => (state.help ? change({help: false}) : change({chosen: null})), "esc"],
     [["/"], "find a node; enter chooses it", () => element("find").focus()],
-    [["+", "="], "less time in the timeline (or wheel)", () => zoomTime(1 / 1.5), "+"],
-    [["-"], "more time in the timeline (or wheel)", () => zoomTime(1.5), "\u2212"],
+    [["+", "="], "zoom in on the timeline (or wheel)", () => zoomTime(1 / 1.5), "+"],
+    [["-"], "zoom out of the timeline (or wheel)", () => zoomTime(1.5), "\u2212"],
     [["0"], "all time in the timeline", showAllTime],
     [["e"], "fold the chosen node", () => state.chosen && toggleFold(state.chosen)],
-    [["E"], "fold or open all", toggleAllFolds],
-    [["s"], "snap to keys and events; alt not this time", () => toggle("snap")],
-    [["o"], "curves in the parent's axes, or the world's", () => toggle("local")],
+    [["E"], "fold or unfold all", toggleAllFolds],
+    [["s"], "snap to keys and events; hold alt to not snap", () => toggle("snap")],
+    [["o"], "curves in the parent's axes or the world's", () => toggle("local")],
     [["?"], "this sheet", () => toggle("help")],
   ]],
 ];

@@ -1,4 +1,4 @@
-// Puts the page together, and lets a program drive it through `window.tweenfall`.
+// Puts the page together, and lets programs drive it through `window.tweenfall`.
 
 let drawQueued = false;
 function requestDraw() {
@@ -12,9 +12,9 @@ function requestDraw() {
   });
 }
 
-// Where nothing else shows the nodes, dots and lines do.
+// Dots and lines show the nodes if nothing else does.
 state.skeleton = cast.links.length + cast.bones.size > 0 && recording.instances.length === 0;
-// Where nothing can change hands, owners' colors say nothing.
+// Without bodies that can change owner, the owners' colors say nothing.
 state.byOwner = nodes.some(node => node.hasBody && !node.fixed);
 
 const timeline = new Timeline(), curves = new Curves(), actions = actionList(timeline);
@@ -36,14 +36,14 @@ function layOut() {
   const emptied = fitView();
   if (framedWhole) frameAll();
   updateScene();
-  // A layout comes after the animation frames: the page is shown before the next of them.
+  // Layout happens after the animation frame callbacks: the page is painted before the next of these runs.
   if (emptied) drawScene();
   timeline.draw();
   updateReadout();
   requestDraw();
 }
 
-// The node that most likely interests: one that changes hands, else one that moves, else one with keys.
+// The node most likely of interest: one that changes owner, else one that moves, else one with keys.
 function firstChoice() {
   const handed = recording.handoffs.length ? nodes[recording.handoffs[0].node] : null;
   return handed || nodes.find(node => node.hasBody && !node.fixed && node.shown) || nodes.find(node => node.moves && node.shown) ||
@@ -92,7 +92,7 @@ window.tweenfall = {
   get chosen() { return state.chosen ? state.chosen.name : null; },
   get shownTime() { return [state.from, state.until]; },
   get rows() { return timeline.list.rows.map(row => (row.graph ? graphRowName(row) : row.lane ? `${row.node.name}.${row.lane.property}` : row.node.name)); },
-  // Of a graph's machine its states' weights, of a parameter its value, now.
+  // At the present time: the weights of a machine's states, and the value of a parameter.
   graphs: recording.graphs.map(graph => graph.name),
   stateOf: (graph, machine) => machineStateAt(graphPart(graph, "machines", machine), state.time),
   weightsOf: (graph, machine) => {
@@ -112,7 +112,7 @@ window.tweenfall = {
   set: values => change(values),
   // In the world, column-major, at the present time.
   worldMatrixOf: name => Array.from(matrixAt(recording, known(name), cursorNow(), new Float64Array(16))),
-  // As the 3-D object that is drawn has it, brought back from the scene to the world.
+  // The matrix of the 3-D object that is drawn, brought back from the scene to the world.
   drawnMatrixOf: name => {
     const group = cast.groups.get(known(name));
     return group && new THREE.Matrix4().getInverse(cast.root.matrixWorld).multiply(group.matrixWorld).toArray();
@@ -127,12 +127,12 @@ window.tweenfall = {
   },
   // World positions of the vertices of mesh instance `index`, as drawn.
   verticesOf: index => Array.from(cast.deformed[index].geometry.attributes.position.array),
-  // World places of the particles of a name, as drawn.
+  // World positions of the particles named `name`, as drawn.
   particlesOf: name => {
     const found = cast.particles.find(each => each.name === name);
     return found && Array.from(found.places.array.subarray(0, 3 * found.shown));
   },
-  // The corners of all triangles that are drawn now, ground left out, and the places of nodes where bones alone are drawn.
+  // Vertices of the meshes drawn now, without the ground, and the positions of the nodes if only bones are drawn.
   drawnPoints: () => {
     const points = [], back = new THREE.Matrix4().getInverse(cast.root.matrixWorld), point = new THREE.Vector3();
     cast.root.traverseVisible(object => {
@@ -145,11 +145,11 @@ window.tweenfall = {
       for (const node of cast.bones) points.push(placeAt(recording, node, cursorNow()).position);
     return points;
   },
-  // The boxes [low x, y, z, high x, y, z] that all that is drawn fills over the recording, and where a point of the world
-  // is in the view, in CSS pixels from its corner.
+  // The box [low x, y, z, high x, y, z] around all that is drawn over the recording, and where a point of the world is
+  // in the view, in CSS pixels from its corner.
   boundsOf: () => cast.bounds.box(),
   placeInView: toView,
-  // The outlines of what collides with node `name`, in the world: [x, y, z, ...].
+  // The outlines of the collision shape of node `name`, in the world: [x, y, z, ...].
   colliderOf: name => {
     if (!cast.wires) cast.addWires();
     updateScene();
@@ -167,21 +167,21 @@ window.tweenfall = {
     const [a, b] = endsOf(joint, cursorNow());
     return {a: a.origin, b: b.origin, axis: a.axes.slice(0, 3)};
   },
-  // What the last step worked with; null where the page does not have it. A box is [low x, y, z, high x, y, z].
+  // What the last physics step used; null if the page does not have it. A box is [low x, y, z, high x, y, z].
   contacts: () => recording.details && contactsNow(),
   islandOf: name => { const detail = detailOf(known(name)), island = detail ? runAt(detail.island, detailFrame()) : -1;
     return island < 0 ? null : nodes[island].name; },
   asleep: name => isAsleep(known(name)),
   boxOf: name => { const detail = detailOf(known(name)); return detail && boxAt(detail, detailFrame()); },
   drawnColorOf: name => colorAt(known(name)),
-  // How opaque the solid of a node is drawn, 0 where it is not.
+  // How opaque the solid of a node is drawn; 0 if it is not drawn.
   drawnAlphaOf: name => {
     const {mesh} = cast.solids.find(({node}) => node === known(name));
     return mesh.visible ? mesh.material.opacity : 0;
   },
-  // What the curves show of a panel at the present time.
+  // The values that the curves show in a panel at the present time.
   valuesOf: (name, panel) => gatheredAt(gather(known(name)), state.time)[panel],
-  // What the curves show of all frames, panel by panel: position [x, y, z], velocity, rotation, angular velocity, ...
+  // The values that the curves show at all frames, panel by panel: position [x, y, z], velocity, rotation, angular velocity, ...
   curvesOf: name => gather(known(name)).panels.map(panel => panel.series.map(values => Array.from(values))),
   panelsOf: name => gather(known(name)).panels.map(({name: panel, unit, names}) => ({name: panel, unit, names})),
 };

@@ -4,7 +4,7 @@ const clampTime = time => Math.min(recording.endTime, Math.max(recording.startTi
 const seek = time => change({time: clampTime(time)});
 const toFrame = frame => seek(times[Math.min(recording.frameCount - 1, Math.max(0, frame))]);
 
-// From between two frames, one step goes to the frame on that side.
+// From a time between two frames, one step goes to the nearest frame in its direction.
 function step(count) {
   change({playing: false});
   const before = recording.frameBefore(state.time), on = times[before] === state.time;
@@ -22,7 +22,7 @@ const allKeyTimes = () => (state.chosen && keyTimesOf(state.chosen).length ? key
   : recording.lanes.flatMap(lane => Array.from(lane.times)));
 const allEventTimes = () => recording.events.concat(recording.handoffs).map(event => event.time);
 
-// To the nearest of `list` after the present time, or before it with a negative `direction`.
+// Goes to the nearest time of `list` after the present one, or before it if `direction` is negative.
 function toNext(list, direction) {
   change({playing: false});
   const ahead = list.filter(time => (time - state.time) * direction > 1e-9);

@@ -28,7 +28,7 @@ const cell = (name, text, kind = "") => {
   return made;
 };
 
-// A narrow page tells four digits of a number, and the whole of it when pointed at.
+// A narrow page shows four digits of a number, and all of them when pointed at.
 const digitsOf = (value, digits) => innerWidth > 860 ? digits
   : Math.max(0, Math.min(digits, 3 - Math.floor(Math.log10(Math.max(1, Math.abs(value))))));
 const numberCell = (value, digits) => {

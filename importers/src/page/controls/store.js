@@ -1,4 +1,4 @@
-// What the person looking has set: values by name, and those who want to know of changes.
+// What the user has set: values by name, and listeners that are told of changes.
 
 class Store {
   constructor(values) {
@@ -21,15 +21,16 @@ class Store {
 const recording = new Recording(JSON.parse(document.getElementById("data").textContent));
 const {nodes, times} = recording;
 
-// `led`: another page's clock moves the time; `from` and `until`: what the timeline and the curves show; `folded`: nodes whose rows are hidden below them;
-// `labels`: px of the column of names, null: as its names need, within bounds, Infinity: as the longest needs.
+// `led`: another page's clock moves the time; `from` and `until`: the times that the timeline and the curves show;
+// `folded`: nodes whose lanes and children are hidden; `labels`: width of the column of names, px; null: as its names
+// need, within bounds; Infinity: as the longest needs.
 const store = new Store({time: recording.startTime, playing: false, led: false, speed: 1, loop: true, snap: true, chosen: null, byOwner: true,
   trail: true, skeleton: false, colliders: false, joints: false, contacts: false, islands: false, boxes: false, sleepers: false, follow: false, local: false, help: false, find: "", folded: new Set(), labels: null,
   from: recording.startTime, until: recording.endTime});
 const state = store.values;
 const change = values => store.change(values);
 
-// Where the present time is among the frames.
+// The position of the present time among the frames.
 let lastCursor = null;
 function cursorNow() {
   if (!lastCursor || lastCursor.time !== state.time) lastCursor = cursorAt(recording, state.time);

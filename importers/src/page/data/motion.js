@@ -1,6 +1,6 @@
-// Where things are between the frames: each node follows the cubic that has the place and the velocity, the rotation and
-// the angular velocity of both frames. A hand-off or a blow between two frames parts them; what jumps stays until the
-// next frame.
+// Where things are between the frames: each node follows the cubic that has the position and velocity, the rotation and
+// angular velocity of both frames. A hand-off or an impact between two frames splits the cubic; a node that jumps stays
+// where it is until the next frame.
 
 // {frame, share}: `share` of the way from `frame` to the next.
 function cursorAt(recording, time) {
@@ -12,7 +12,7 @@ function cursorAt(recording, time) {
 
 const slice = (values, at, count) => Array.from(values.subarray(at, at + count));
 
-// A node at a frame: place, linear part, rates of both.
+// A node at a frame: position, linear part, and the rates of both.
 function stateAt(node, frame) {
   const at = offsetOf(node.matrices, frame, 12), turn = offsetOf(node.twists, frame, 6);
   const velocity = node.velocities ? slice(node.velocities, offsetOf(node.velocities, frame, 3), 3) : slice(node.twists, turn, 3);
@@ -36,7 +36,7 @@ function turnBetween(from, to, wFrom, wTo, span, u) {
   const third = span / 3, start = wFrom.map(w => w * third), end = wTo.map(w => w * third);
   const middle = vectorOf(turnProduct(turnOf(end.map(w => -w)),
     turnProduct(to, turnProduct(turnBack(from), turnOf(start.map(w => -w))))));
-  // `middle` is what is left in the world's axes; more than the velocities can explain is a jump.
+  // `middle` is the rotation that is left, in the world's axes; more than the velocities can explain is a jump.
   if (Math.hypot(...middle) > 6 * (Math.hypot(...start) + Math.hypot(...end)) + 2e-3) return null;
   const v = 1 - u, first = 1 - v * v * v, second = u * u * (3 - 2 * u), last = u * u * u;
   return turnProduct(turnOf(end.map(w => w * last)), turnProduct(turnOf(middle.map(w => w * second)),
@@ -55,7 +55,7 @@ function linearBetween(a, b, span, u) {
   const angular = spin < 2.5 ? arrival(whole.map(value => value / span), a.angular, b.angular) : b.angular;
   const turn = turnBetween(one.turn, two.turn, a.angular, angular, span, u);
   if (!turn) return a.linear;
-  // Rates of the stretch are told in the world's axes.
+  // Rates of the stretch are given in the world's axes.
   const rates = (state, shape) => state.stretching && product3(transposed3(shape.frame), state.stretching);
   const rateA = rates(a, one), rateB = rates(b, two);
   const stretch = one.stretch.map((value, i) => rateA && rateB
@@ -63,15 +63,15 @@ function linearBetween(a, b, span, u) {
   return product3(matrixOfTurn(turn), stretch);
 }
 
-// A frame has the rates that leave it. Where a straight way ends in a corner on the next frame, as at linear keys, that
-// frame's rate is not the one of arrival: then the way's own is taken. On smooth ways the mean rate `along` lies half way
-// between the rates of both ends, and this is none of them.
+// A frame stores the rate just after it. If a straight stretch ends in a corner at the next frame, as at linear keys, that
+// frame's rate is not the rate of arrival: then the stretch's own rate `along` is taken. On smooth motion `along` lies
+// halfway between the rates of both ends; on a straight stretch it is the rate of its start.
 function arrival(along, from, to) {
   const early = Math.hypot(...along.map((value, i) => value - from[i])), late = Math.hypot(...along.map((value, i) => value - to[i]));
   return early < 0.05 * late ? along : to;
 }
 
-// Place and linear part `u` of the way from state `a` to state `b`.
+// Position and linear part at share `u` of the way from state `a` to state `b`.
 function between(a, b, span, u) {
   const excess = Math.hypot(...a.position.map((p, i) => b.position[i] - p - span * (a.velocity[i] + b.velocity[i]) / 2));
   const reach = 2 * span * (Math.hypot(...a.velocity) + Math.hypot(...b.velocity));
@@ -82,7 +82,7 @@ function between(a, b, span, u) {
   return {position, linear: linearBetween(a, b, span, u)};
 }
 
-// The state of a node that goes straight on from `a` for `time` s.
+// The state of a node that continues from `a` at constant velocity for `time` s.
 function onward(a, time) {
   const turn = matrixOfTurn(turnOf(a.angular.map(w => w * time)));
   return {...a, position: a.position.map((p, i) => p + a.velocity[i] * time), linear: product3(turn, a.linear)};
@@ -101,7 +101,7 @@ function placeAt(recording, node, cursor) {
   if (found.handoff) {
     corner = stateAtHandoff(node, early ? found.handoff.before : found.handoff.after, a);
   } else {
-    // Both sides go straight to the corner and meet half way.
+    // Both sides continue straight to the corner; it is halfway between where they arrive.
     const one = onward(a, before), two = onward(b, -after);
     const met = one.position.map((p, i) => (p + two.position[i]) / 2);
     corner = {...(early ? one : two), position: met, linear: one.linear};
@@ -122,7 +122,7 @@ function matrixAt(recording, node, cursor, out) {
   return out;
 }
 
-// Values stored frame by frame, straight between them; after a jump, those of the frame that follows.
+// Values stored frame by frame, interpolated linearly; at a jump they change at once to those of the next frame.
 function valuesAt(values, count, cursor, jump) {
   const at = offsetOf(values, cursor.frame, count);
   if (values.length === count || cursor.share <= 0) return slice(values, at, count);

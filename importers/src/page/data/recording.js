@@ -1,4 +1,4 @@
-// One recording as the page carries it: names and numbers, nothing of how they are shown.
+// One recording as the page carries it: names and numbers, but nothing about how they are shown.
 
 function bytesOf(text) {
   const binary = atob(text || "");
@@ -13,7 +13,7 @@ const integers = text => new Uint32Array(bytesOf(text));
 // Values that never change are stored once.
 const offsetOf = (values, frame, stride) => (values.length === stride ? 0 : frame * stride);
 
-// The last index whose value is not above `wanted`, -1 when all are.
+// The last index whose value is not above `wanted`; -1 if all are above it.
 function lastNotAbove(length, valueAt, wanted) {
   let low = -1, high = length - 1;
   while (low < high) {
@@ -28,7 +28,7 @@ const allFinite = values => {
   return true;
 };
 
-// Whether graphics can calculate with the numbers of a shape.
+// Whether the numbers of a shape are small enough for graphics to calculate with.
 function fitsShape(shape) {
   if (!shape) return true;
   const numbers = [shape.sphere, shape.offset, shape.box, shape.capsule, shape.position, shape.turned, shape.corners, shape.hull && shape.hull.vertices];
@@ -89,14 +89,14 @@ class Recording {
     for (const node of this.nodes) node.owners = this.ownersOf(node);
   }
 
-  // Where a node's motion has a corner or a jump between two frames, and when.
+  // The frames after which a node's motion has a corner or a jump, and the exact times.
   findBreaks() {
     const add = (first, time, handoff) => {
-      // What happens on a frame parts it from the one before: a frame has the rates that leave it.
+      // An event exactly on a frame splits it from the one before, because a frame stores the rates just after it.
       const at = this.frameBefore(time), frame = at > 0 && this.times[at] === time ? at - 1 : at;
       if (frame < 0 || frame + 1 >= this.frameCount || time === this.times[frame]) return;
       if (handoff || !first.breaks.has(frame)) first.breaks.set(frame, {time, handoff});
-      // What hangs on it turns the same corner.
+      // Nodes below it turn the same corner.
       for (const waiting = [first]; waiting.length;)
         for (const child of waiting.pop().children) {
           if (child.hasBody) continue;
@@ -124,7 +124,7 @@ class Recording {
     }
   }
 
-  // [[from when, owner], ...]. Runs are known by frame; a hand-off between two frames says the exact time.
+  // [[start time, owner], ...]. Runs are stored by frame; a hand-off between two frames has the exact time.
   ownersOf(node) {
     const handed = this.handoffs.filter(handoff => handoff.node === node.index);
     return node.runs.map(([frame, owner]) => {
@@ -148,17 +148,17 @@ class Recording {
     return node.owners[Math.max(0, lastNotAbove(node.owners.length, i => node.owners[i][0], time))][1];
   }
 
-  // How a thing hung on `node` is colored: as the body that carries it.
+  // The owner whose color things on `node` have: that of the body that carries it.
   shownOwner(node, time) {
     for (let n = node; n; n = this.nodes[n.parent]) if (n.hasBody) return n.fixed ? "fixed" : this.ownerAt(n, time);
     return this.ownerAt(node, time);
   }
 
-  // What this page leaves out or cannot show, in sentences.
+  // Sentences about what this page leaves out or cannot show.
   limits() {
     const said = [], hidden = this.nodes.filter(node => !node.shown), list = hidden.slice(0, 3).map(node => `"${node.name}"`);
     if (!this.nodes.length) said.push("This stage has no nodes, so there is nothing to draw.");
-    if (this.frameCount === 1) said.push("There is one frame alone, so nothing moves.");
+    if (this.frameCount === 1) said.push("There is only one frame, so nothing moves.");
     if (hidden.length)
       said.push(`Not drawn, for places or sizes beyond what a page can hold (1e+30 m): ${list.join(", ")}` +
         (hidden.length > 3 ? ` and ${hidden.length - 3} more.` : "."));

@@ -40,7 +40,7 @@ function turnOfMatrix(m) {
   return q.map(part => part / length);
 }
 
-// A matrix as a rotation times a stretch, R S: R is the frame of the columns, made square one after the other.
+// A matrix as a rotation times a stretch, R S: R is the frame of the columns, orthogonalized one after the other.
 function turnAndStretch(m) {
   const first = [m[0], m[1], m[2]], x = Math.hypot(...first);
   const along = first.map(part => part / x);
@@ -51,7 +51,7 @@ function turnAndStretch(m) {
   return {turn: turnOfMatrix(frame), frame, stretch: product3(transposed3(frame), m)};
 }
 
-// Angles in degrees about x, then the turned y, then the twice turned z; the equal triple nearest to `last`.
+// Angles in degrees about x, then the rotated y, then the twice rotated z; of equivalent triples the nearest to `last`.
 function anglesOf(m, last) {
   const half = 180, to = 180 / Math.PI, y = Math.asin(Math.max(-1, Math.min(1, m[6])));
   const level = Math.abs(m[6]) > 0.9999999;

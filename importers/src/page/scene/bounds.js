@@ -1,8 +1,8 @@
-// The boxes of all that is drawn, node by node and instant by instant, and how far they reach in any direction.
+// Boxes around all that is drawn, one per node and instant, and how far they reach in any direction.
 
-const mostInstants = 480;       // of the recording that are looked at, where nodes are few
-const mostPlaces = 2e5;         // of nodes, over all instants
-const mostVertexMoves = 4e6;    // bent vertices that the page takes time for when it opens
+const mostInstants = 480;       // most instants of the recording that are examined
+const mostPlaces = 2e5;         // most positions of nodes, over all instants
+const mostVertexMoves = 4e6;    // most vertices that are deformed while the page opens
 
 class Bounds {
   constructor() {
@@ -13,7 +13,7 @@ class Bounds {
     if (box.every(Number.isFinite) && box[0] <= box[3]) this.boxes.push(box);
   }
 
-  // The largest dot product of `direction` with a point inside; -Infinity when there is none.
+  // The largest dot product of `direction` with a point in a box; -Infinity if there is no box.
   reach([x, y, z]) {
     const [i, j, k] = [x > 0 ? 3 : 0, y > 0 ? 4 : 1, z > 0 ? 5 : 2];
     let most = -Infinity;
@@ -31,7 +31,7 @@ class Bounds {
     return this.boxes.length ? out : [-1, -1, -1, 1, 1, 1];
   }
 
-  // Without what flew off: where the whole is far larger than what holds 96 of 100 boxes, only these count.
+  // Without things that flew off: if the whole is far larger than what holds 96 of 100 boxes, only boxes near these count.
   trimmed() {
     if (this.boxes.length < 50) return this;
     const whole = this.box(), share = Math.floor(this.boxes.length / 50);
@@ -58,7 +58,7 @@ function boxOfPoints(positions, matrix) {
   return out;
 }
 
-// The box of a matrix' ball of radius `radius` about `at`.
+// The box around a ball of radius `radius` about `at` after it is transformed by `matrix`.
 function boxOfBall(matrix, at, radius) {
   const out = [];
   for (const sign of [-1, 1])
@@ -69,7 +69,7 @@ function boxOfBall(matrix, at, radius) {
 }
 const boxAround = (a, b) => a.map((value, i) => (i < 3 ? Math.min(value, b[i]) : Math.max(value, b[i])));
 
-// What a body's shape fills, as balls or as corner points in the node's space.
+// The extent of a body's shape, as balls or as corner points in the node's space.
 function solidOf(shape) {
   const turn = matrixOfTurn(shape.rotation), place = point => times3(turn, point).map((v, i) => v + shape.position[i]);
   if (shape.sphere !== undefined) return {balls: [[shape.position, shape.sphere]]};
@@ -90,13 +90,13 @@ function boxOfSolid(solid, matrix) {
     : solid.balls.map(([at, radius]) => boxOfBall(matrix, at, radius)).reduce(boxAround);
 }
 
-// The corners of a mesh at rest, for one that is only moved.
+// The corners of a box.
 const cornersOf = ([a, b, c, d, e, f]) => Float64Array.from([0, 1, 2, 3, 4, 5, 6, 7].flatMap(i =>
   [i & 1 ? d : a, i & 2 ? e : b, i & 4 ? f : c]));
 
 const everything = () => true, nothing = () => false;
 
-// The box of those vertices of a bent mesh that hang on joints which `only` takes.
+// The box around those vertices of a deformed mesh whose strongest joint satisfies `only`.
 function boxOfPart(held, only) {
   const positions = held.geometry.attributes.position.array;
   if (only === everything || !held.skin) return boxOfPoints(positions);
@@ -106,15 +106,15 @@ function boxOfPart(held, only) {
   return boxOfPoints(part);
 }
 
-// All frames and the middles between them, or as many as there is time for.
+// All frames and the midpoints between them, or as many instants as there is time for.
 function evenInstants() {
   const moving = nodes.filter(node => node.moves).length, room = Math.max(40, Math.floor(mostPlaces / Math.max(1, moving)));
   const count = Math.max(1, Math.min(2 * recording.frameCount - 1, mostInstants, room)), apart = recording.duration / Math.max(1, count - 1);
   return Array.from({length: count}, (_, i) => cursorAt(recording, clampTime(recording.startTime + i * apart)));
 }
 
-// Bounds of what the nodes that `only` takes fill at `instants`: bent meshes, bodies that no mesh in `dressed` clothes, and
-// the places of those that nothing is drawn for and `bare` takes.
+// Bounds at `instants` of the nodes that satisfy `only`: of deformed meshes, of bodies that are not in `dressed` (covered
+// by a mesh), and of the positions of other nodes that satisfy `bare`.
 function drawnBounds(deformed, dressed, {only = everything, instants = evenInstants(), bare = nothing} = {}) {
   const bounds = new Bounds(), matrix = new Float64Array(16);
   let bent = 0;

@@ -1,12 +1,12 @@
-// What stands on the stage in three dimensions: bodies, meshes, colliders and bones of one recording, below one group that
-// brings very small, very large and far stages to a size that graphics can hold.
+// What is drawn in three dimensions: bodies, meshes, colliders and bones of one recording, below one group that scales
+// very small, very large and far stages to a size that graphics can handle.
 
 function placeOffset(object, shape) {
   object.position.set(...shape.position);
   object.quaternion.set(...shape.rotation);
 }
 
-// Nodes that meshes clothe: their physical shapes are drawn on request only.
+// Nodes covered by meshes: their physical shapes are drawn on request only.
 function dressedNodes() {
   const dressed = new Set();
   for (const instance of recording.instances) {
@@ -19,14 +19,14 @@ function dressedNodes() {
   return dressed;
 }
 
-// Nodes that stand for themselves, as dots: what moves or is linked to others, and without any such all. What only stands
-// there, as cameras and lights do, is not what one looks at.
+// Nodes that are drawn as dots: those without a body that move or are linked to others, or, if there are none, all without
+// a body. Lone static nodes, such as cameras and lights, are of no interest.
 function bareNodes() {
   const bare = nodes.filter(node => !node.hasBody && node.shown), linked = bare.filter(node => node.moves || node.parent >= 0 || node.children.length);
   return new Set(linked.length ? linked : bare);
 }
 
-// What is seen through casts no shadow, and what is not seen at all is not drawn.
+// Transparent meshes cast no shadow, and invisible ones are not drawn.
 function fade(mesh, alpha) {
   mesh.visible = alpha > 0;
   mesh.castShadow = alpha >= 1 && !(mesh.userData.node && mesh.userData.node.shape.plane);
@@ -38,7 +38,7 @@ function fade(mesh, alpha) {
 class Cast {
   constructor() {
     this.root = new THREE.Group();
-    this.groups = new Map();  // by node, of those that something hangs on
+    this.groups = new Map();  // by node; only nodes that something is attached to
     this.solids = [];         // what is colored at each instant: {node, material}
     this.grounds = [];        // planes at rest: {node, mesh, material}
     this.wires = null;        // made when first asked for
@@ -107,7 +107,7 @@ class Cast {
     (held.skin ? this.root : this.groupOf(held.node)).add(mesh);
   }
 
-  // The shapes that collide, each on its node, and so as large as the node's scale makes it.
+  // The collision shapes, each below its node's group, which scales it.
   addWires() {
     this.wires = [];
     for (const node of nodes) {

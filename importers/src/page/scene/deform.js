@@ -1,8 +1,8 @@
-// Meshes bent by morph targets and skins, on the processor: a few thousand vertices at a time.
+// Meshes deformed by morph targets and skins, on the CPU: a few thousand vertices at a time.
 
 const jointMatrix = new Float64Array(16);
 
-// Matrices that take rest positions to world positions, 12 numbers a joint, column by column.
+// Matrices from rest positions to world positions, 12 numbers per joint, column by column.
 function jointMatrices(skin, cursor, out) {
   skin.joints.forEach((joint, j) => {
     const b = skin.inverseBinds, at = 12 * j;
@@ -48,7 +48,7 @@ function bend(mesh, matrices, positions, normals) {
   }
 }
 
-// Which joint pulls a vertex most.
+// The joint with the largest weight at a vertex.
 function strongestJoint(mesh, vertex) {
   const {joints, jointWeights, influences} = mesh;
   let most = influences * vertex;
@@ -56,7 +56,7 @@ function strongestJoint(mesh, vertex) {
   return joints[most];
 }
 
-// A mesh hung on the stage: its geometry, and how to bring it to a time.
+// A mesh on the stage: its geometry, and how to update it to a time.
 class DeformedMesh {
   constructor(instance) {
     this.node = nodes[instance.node];
@@ -97,7 +97,7 @@ class DeformedMesh {
     this.geometry.boundingSphere = null;
   }
 
-  // Each vertex in the color of the joint that pulls it most; `colorOf` gives [r, g, b] of a node.
+  // Gives each vertex the color of its strongest joint; `colorOf` gives [r, g, b] of a node.
   paint(colorOf) {
     const key = (this.skin ? this.skin.joints : [this.node.index]).map(joint => colorOf(nodes[joint]).join()).join(";");
     if (key === this.painted) return;

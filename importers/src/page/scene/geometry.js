@@ -1,4 +1,4 @@
-// Shapes of bodies as triangles. Round shapes carry a pattern of shades, so that one sees them turn.
+// Shapes of bodies as triangles. Round shapes have a pattern of shades, so that their rotation is visible.
 
 const shade = 0.8;
 
@@ -86,7 +86,7 @@ function shapeGeometry(shape, planeSize) {
   return planeGeometry(shape.plane, shape.offset, planeSize);
 }
 
-// Lines a step apart in the x-z plane, in pieces of one cell: some drivers drop lines that reach behind the camera.
+// Grid lines in the x-z plane, in pieces of one cell: some drivers drop lines that reach behind the camera.
 function gridGeometry(step, cells) {
   const positions = [];
   for (let i = -cells; i <= cells; ++i)
@@ -97,7 +97,7 @@ function gridGeometry(step, cells) {
   return geometry;
 }
 
-// The outline of what collides, as lines: three great circles of a ball, sides and rims of what is turned about y, edges of the others.
+// The outline of a collision shape, as lines: three great circles of a ball, sides and rims of a surface of revolution, edges of the others.
 function wireGeometry(shape) {
   if (shape.box) return new THREE.EdgesGeometry(boxGeometry(shape.box));
   if (shape.hull) return new THREE.EdgesGeometry(hullGeometry(shape.hull), 1);
@@ -121,7 +121,7 @@ function wireGeometry(shape) {
       const [radiusFrom, heightFrom, ...normalFrom] = shape.turned[i];
       for (const [c, s] of [[1, 0], [0, 1], [-1, 0], [0, -1]])
         points.push(radiusFrom * c, heightFrom, radiusFrom * s, radiusTo * c, heightTo, radiusTo * s);
-      // A rim at either end of what is straight.
+      // A rim at either end of a straight section.
       if (normalFrom.every((value, k) => value === normalTo[k]))
         for (const [r, y] of [[radiusFrom, heightFrom], [radiusTo, heightTo]])
           if (r > 0) arc(0, 2 * Math.PI, (c, s) => [r * c, y, r * s], 1);

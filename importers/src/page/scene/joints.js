@@ -1,6 +1,6 @@
-// Joints, drawn flat over the 3-D view: their two ends, the axis that they turn about or slide along, and limits.
+// Joints, drawn in 2-D over the 3-D view: their two ends, the axis that they turn about or slide along, and limits.
 
-// The rotation and place of a node without its scale; the world's for none.
+// The rotation and position of a node without its scale; those of the world if `index` is negative.
 function frameOfNode(index, cursor) {
   if (index < 0) return {position: [0, 0, 0], frame: [1, 0, 0, 0, 1, 0, 0, 0, 1]};
   const {position, linear} = placeAt(recording, nodes[index], cursor), parts = turnAndStretch(linear);
@@ -27,7 +27,7 @@ function drawWay(context, points, color, width) {
   }
 }
 
-// Around the x axis of a's frame from its y axis, between two angles, and where b's own y axis is.
+// Draws the limits as a sector about the x axis of a's frame, with angles from its y axis, and b's own y axis as a line.
 function drawTurn(context, joint, [a, b], reach) {
   const axis = i => [a.axes[3 * i], a.axes[3 * i + 1], a.axes[3 * i + 2]];
   const at = (angle, far) => a.origin.map((value, i) => value + far * (Math.cos(angle) * axis(1)[i] + Math.sin(angle) * axis(2)[i]));

@@ -1,8 +1,8 @@
-// Where things are in the view, what lies under the pointer, what is framed and followed.
+// Where things are in the view, what is under the pointer, and what is framed and followed.
 
 const orbit = new Orbit(camera, view, () => requestDraw());
 
-// Where a point of the world is in the view, in CSS pixels from the view's corner; null behind the camera.
+// Where a point of the world is in the view, in CSS pixels from the view's corner; null if it is behind the camera.
 const projected = new THREE.Vector3();
 function toView(point) {
   projected.fromArray(cast.toScene(point)).applyMatrix4(camera.matrixWorldInverse);
@@ -17,9 +17,9 @@ function centerOf(node, cursor) {
   return node.shape ? times3(part, node.shape.position).map((value, i) => value + position[i]) : position;
 }
 
-// The largest side of the smallest rectangle that is still worth framing.
+// The smallest distance of the camera when it frames something.
 const leastDistance = () => 0.02 * cast.radius;
-let framedWhole = true;  // until the person looks elsewhere
+let framedWhole = true;  // until the user changes the view
 function frameAll() {
   orbit.frame(cast.reachOf(cast.bounds), leastDistance());
   framedWhole = true;
@@ -37,7 +37,7 @@ function frameChosen() {
   updateScene();
 }
 
-// The camera goes along with the chosen node.
+// Moves the camera along with the chosen node.
 let followed = null;
 function follow() {
   if (!state.follow || !state.chosen || !state.chosen.shown) { followed = null; return; }
@@ -47,7 +47,7 @@ function follow() {
   followed = {node: state.chosen, place};
 }
 
-// The node under a point of the view; the ground is none.
+// The node under a point of the view; null for the ground.
 function nodeAtPoint(x, y) {
   if (state.skeleton) {
     let best = null, least = 9;

@@ -1,6 +1,6 @@
-// A camera that a mouse turns about a target, moves and zooms.
+// A camera that the mouse turns about a target, moves and zooms.
 
-const framed = 0.88;  // the share of the view that what is framed may fill
+const framed = 0.88;  // the share of the view that framed things may fill
 
 class Orbit {
   constructor(camera, element, changed) {
@@ -30,7 +30,7 @@ class Orbit {
     if (this.looked) this.looked(this.look);
   }
 
-  // Where it looks at in the world, from how far and from which side, so that another page can look alike.
+  // What it looks at in the world, from how far and from which side, so that another page can take the same view.
   get look() {
     return {target: cast.toWorld(this.target.toArray()), distance: this.distance / cast.unit, yaw: this.yaw, pitch: this.pitch};
   }
@@ -96,8 +96,8 @@ class Orbit {
   }
 
   // Looks from the present side at all that `reach` measures (the largest dot product of a direction with a point), as
-  // near as the four sides of the view allow. A point p is right of no side when (r + w b) . p <= (r + w b) . C, for the
-  // camera's place C, its right r, its back b and the side's slope w; the same goes for the three others.
+  // near as the four sides of the view allow. A point p is within the right side if (r + w b) . p <= (r + w b) . C, with
+  // the camera's position C, its right r, its back b and the side's slope w; the three other sides likewise.
   frame(reach, least) {
     const high = framed * Math.tan(this.camera.fov * Math.PI / 360), wide = high * this.camera.aspect;
     this.target.set(0, 0, 0);

@@ -1,8 +1,8 @@
-// What is drawn flat over the 3-D view: the chosen node's path, its velocity and its name.
+// What is drawn in 2-D over the 3-D view: the chosen node's path, its velocity and its name.
 
 const overlay = document.getElementById("overlay");
 
-// The path of a node's middle, twice as dense as the frames where those are few.
+// The path of a node's center, with twice as many points as frames if the frames are few.
 let pathOf = {node: null};
 function pathPoints(node) {
   if (pathOf.node === node) return pathOf.points;

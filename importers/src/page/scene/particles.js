@@ -1,4 +1,4 @@
-// Particles as dots: those of the frame before, moved on by their own velocities.
+// Particles as dots: those of the last frame, moved on by their own velocities.
 
 const dotPicture = (() => {
   const canvas = document.createElement("canvas");
@@ -33,9 +33,9 @@ class ShownParticles {
     }
   }
 
-  // @param unit, radius  of the cast: how large its meters are drawn, and how large it is
+  // @param unit, radius  of the cast: the drawn length of a meter, and the drawn size of all
   object(unit, radius) {
-    // three.js' sizes are for an eye that sees a right angle.
+    // Sizes in three.js are those for a field of view of 90 degrees.
     const size = Math.max(2 * this.radius * unit, 0.009 * radius) / Math.tan(camera.fov * Math.PI / 360);
     this.material = new THREE.PointsMaterial({size, map: dotPicture, alphaTest: 0.5, sizeAttenuation: true,
       color: new THREE.Color().fromArray(this.color)});

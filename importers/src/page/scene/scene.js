@@ -11,10 +11,10 @@ function isSoftware(context) {
 }
 
 try {
-  // Asked first, because three.js complains aloud.
+  // Tried first, because three.js prints errors on failure.
   const context = document.createElement("canvas").getContext("webgl");
   if (!context) throw new Error("no WebGL");
-  // Without a graphics card smooth edges take as long as all the rest.
+  // Without a graphics card, antialiasing takes as long as all the rest.
   renderer = new THREE.WebGLRenderer({canvas: document.getElementById("scene"), antialias: !isSoftware(context)});
   renderer.gammaOutput = true;
   renderer.gammaFactor = 2.2;
@@ -75,7 +75,7 @@ function ownColor(node) {
   const color = ownColorAndAlpha(node);
   return color && Array.from(color).slice(0, 3);
 }
-// How much of a node is seen, 0 to 1, whatever its color stands for.
+// The opacity of a node, 0 to 1, in whatever color it is drawn.
 function alphaAt(node) {
   const color = ownColorAndAlpha(node);
   return color ? Math.min(1, Math.max(0, color[3])) : 1;
@@ -104,7 +104,7 @@ function updateScene() {
   scene.updateMatrixWorld();
 }
 
-// Whether the canvas has another size now: what was drawn is gone then, and black until it is drawn again.
+// Fits the canvas to the view. Returns whether its size changed; it is then black until it is drawn again.
 function fitView() {
   const width = view.clientWidth, height = view.clientHeight, ratio = window.devicePixelRatio || 1;
   if (!width || !height) return false;

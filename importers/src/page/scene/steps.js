@@ -1,18 +1,18 @@
-// What the steps of physics worked with: contacts, the boxes in which pairs are looked for, islands and sleep. As the last
-// frame before the present time has it.
+// What the physics steps worked with: contacts, the boxes of the broad phase, islands and sleep, as of the last frame
+// before the present time.
 
 const detailFrame = () => Math.max(0, recording.frameBefore(state.time));
 
-// The word of runs [[first frame, word], ...] that holds at a frame.
+// The word that applies at a frame, of runs [[first frame, word], ...].
 const runAt = (runs, frame) => runs[Math.max(0, lastNotAbove(runs.length, i => runs[i][0], frame))][1];
 
-// The body that carries what hangs on a node, as the steps had it; null for none.
+// The step details of the body that carries a node; null if there is none.
 function detailOf(node) {
   for (let n = node; recording.details && n; n = nodes[n.parent]) if (n.hasBody) return recording.details.nodes.get(n.index) || null;
   return null;
 }
 
-// One hue for each island, far from those beside it; what no island moves stays gray.
+// One hue per island, far from those of the islands before and after it; bodies in no island stay gray.
 function islandColor(node) {
   const detail = detailOf(node), island = detail ? runAt(detail.island, detailFrame()) : -1;
   if (island < 0) return neutral;
@@ -21,7 +21,7 @@ function islandColor(node) {
 
 const isAsleep = node => { const detail = detailOf(node); return !!detail && runAt(detail.asleep, detailFrame()) === 1; };
 
-// Sleepers fade toward the color of what never moves.
+// Sleeping bodies fade toward the color of fixed ones.
 const faded = color => color.map((part, i) => 0.2 * part + 0.8 * ownerColors.fixed[i] * 0.45);
 
 function contactsNow() {
@@ -34,7 +34,7 @@ function contactsNow() {
 
 const contactColor = "#e0245e", boxColor = "#0a9396";
 
-// A point for each, and its normal, from the first body to the second; pale where nothing presses.
+// A point per contact, and its normal from the first body to the second; pale if it has no impulse.
 function drawContacts(context) {
   const reach = 0.03 * cast.radius / cast.unit;
   for (const {point, normal, impulse} of contactsNow()) {
@@ -49,7 +49,7 @@ function drawContacts(context) {
   }
 }
 
-// The boxes of all bodies as lines of one object, made when first asked for.
+// The boxes of all bodies as lines of one object, made when first needed.
 let boxLines = null;
 const boxEdges = [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]].flat();
 

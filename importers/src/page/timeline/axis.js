@@ -1,4 +1,4 @@
-// The stretch of time that the timeline and the curves show: zoomed by the wheel, moved by dragging.
+// The span of time that the timeline and the curves show: zoomed by the wheel, moved by dragging.
 
 const axisEdge = 10;  // room left and right of the first and last time, px
 const leastStretch = () => Math.max(1e-6, recording.duration / 1e5);
@@ -22,7 +22,7 @@ function zoomTime(factor, about = state.time) {
 }
 const panTime = by => showStretch(state.from + by, stretch());
 
-// While playing the stretch turns the page when time runs out of it.
+// While playing, the shown span moves on to begin at the present time when the time leaves it.
 function keepTimeInSight() {
   if (!state.playing || !zoomed() || (state.time >= state.from && state.time <= state.until)) return;
   showStretch(state.time, stretch());
@@ -39,8 +39,8 @@ function snapped(time, list, width, left, right) {
   return best;
 }
 
-// Makes an element scrub, zoom and pan. `left` and `right`: its room beside the axis; `snaps` gives times to snap to;
-// `pans`: whether a drag moves the stretch when it is zoomed in (a click still goes to its time).
+// Makes an element scrub, zoom and pan. `left` and `right`: its margins beside the axis; `snaps` gives times to snap to;
+// `pans`: whether a drag moves the span while zoomed in (a click still goes to its time).
 function wireAxis(element, {left = axisEdge, right = axisEdge, snaps = () => [], pans = false, hover = () => ""} = {}) {
   const place = event => event.clientX - element.getBoundingClientRect().left;
   const timeAt = event => {
@@ -84,7 +84,7 @@ function wireAxis(element, {left = axisEdge, right = axisEdge, snaps = () => [],
   }, {passive: false});
 }
 
-// Round instants to label, in the stretch that is shown: [[time, text], ...].
+// Round times to label, in the span that is shown: [[time, text], ...].
 function ticks(width, apart) {
   const step = niceStep(recording.duration > 0 ? stretch() : 1, width / apart), digits = decimalsOf(step), out = [];
   for (let k = Math.ceil(state.from / step - 1e-9); k * step <= state.until + 1e-9 * step && out.length < 200; ++k)

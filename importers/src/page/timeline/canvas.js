@@ -63,7 +63,7 @@ function fitted(context, text, width) {
   return text.slice(0, low) + "\u2026";
 }
 
-// A name at most `width` px wide: names differ at their ends, so it loses its middle, and where there is little room its
+// A name at most `width` px wide. Names differ at their ends, so the middle is cut, or, if there is little room, the
 // beginning.
 function fittedName(context, name, width) {
   if (name.length <= 400 && context.measureText(name).width <= width) return name;

@@ -1,12 +1,12 @@
-// Curves of the chosen node over time, a canvas for each panel, with the keys that were written and their eases.
+// Curves of the chosen node over time, one canvas per panel, with the keys of its tracks and their eases.
 
 const curvesBox = document.getElementById("curves");
 const margin = {left: 46, right: 10, top: 24, bottom: 6};
 const leastPanel = 96;   // px
-const markApart = 9;     // px from key to key, below which curves have no marks
-const easeHigh = 12;     // px of a line of eases below the curves
+const markApart = 9;     // px; keys closer than this have no marks
+const easeHigh = 12;     // height of a line of eases below the curves, px
 
-// The keys of a lane in the stretch that is shown, and whether each has room for a mark. `x`: from time to px.
+// The keys of a lane in the span that is shown, and whether they are too dense for marks. `x`: from time to px.
 function marksOf(lane, x) {
   const seen = [];
   lane.times.forEach((time, i) => { if (time >= state.from && time <= state.until) seen.push(i); });
@@ -67,7 +67,7 @@ class Curves {
     this.drawAxis();
   }
 
-  // `below`: px that are left to the eases, so that these cover no curve.
+  // `below`: height of the lines of eases, px, so that they cover no curve.
   drawPanel(canvas, panel, marks, below) {
     const context = prepared(canvas);
     if (!context) return;
@@ -159,7 +159,7 @@ class Curves {
     }
   }
 
-  // The ease's word between two keys, where there is room for it; once for all keys in a row that it is said of.
+  // Writes the ease's name between two keys if there is room for it, once for consecutive keys with the same ease.
   drawEases(context, panel, {lane, seen}, x, y) {
     const only = seriesOf(panel, lane);
     const wordOf = k => (lane.keys[lane.keyOf[seen[k]]] || {}).ease;

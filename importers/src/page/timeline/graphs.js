@@ -1,4 +1,4 @@
-// Graphs on the timeline: a row for each parameter and each machine, which says what state shows and how much of it.
+// Graphs on the timeline: one row per parameter and per machine; a machine's row shows its states and their weights.
 
 const stateColors = ["keyed", "free", "driven", "w", "y", "x", "z", "key"];
 const colorOfState = index => colors[stateColors[index % stateColors.length]];
@@ -8,14 +8,14 @@ const graphRows = recording.graphs.flatMap(graph => [{graph, part: null}, ...gra
   ...graph.parameters.map(part => ({graph, part}))]);
 const graphRowName = row => (row.part ? `${row.graph.name}.${row.part.name}` : row.graph.name);
 
-// The weights of a machine's states at a frame, and what is between two frames.
+// The weights of a machine's states at a time, interpolated between the frames.
 function stateWeightsAt(machine, time) {
   const first = Math.max(0, recording.frameBefore(time)), next = Math.min(first + 1, recording.frameCount - 1);
   const share = next > first ? Math.min(1, Math.max(0, (time - times[first]) / (times[next] - times[first]))) : 0;
   return machine.states.map((_, i) => (1 - share) * machine.weights[first * machine.states.length + i] +
     share * machine.weights[next * machine.states.length + i]);
 }
-// The latest passage at a time.
+// The last passage (entry of a state) up to a time.
 const passageAt = (machine, time) =>
   machine.passages[Math.max(0, lastNotAbove(machine.passages.length, i => machine.passages[i].time, time))];
 const machineStateAt = (machine, time) => machine.states[passageAt(machine, time).state];
@@ -28,7 +28,7 @@ function parameterAt(parameter, time) {
 
 const graphSnaps = row => (row.part && row.part.passages ? row.part.passages.map(passage => passage.time) : []);
 
-// States as bands that share the height by their weights; a mark where one was entered, its name where there is room.
+// States as bands whose heights are their weights; a mark where one was entered, with its name if there is room.
 function drawMachine(context, machine) {
   const top = 2, high = context.height - 4, right = Math.min(context.width, xOfTime(recording.endTime, context.width));
   const left = Math.max(0, xOfTime(recording.startTime, context.width));
@@ -62,7 +62,7 @@ function drawMachine(context, machine) {
   });
 }
 
-// A parameter's course between its least and its greatest value.
+// A parameter's curve between its least and its greatest value.
 function drawParameter(context, parameter) {
   const low = parameter.low, span = parameter.high - low, bottom = context.height - 3, high = context.height - 6;
   const y = value => (span > 0 ? bottom - (value - low) / span * high : context.height / 2);
@@ -95,7 +95,7 @@ function graphTip(row, x, width) {
     .join("\n") + settling;
 }
 
-// What a row's label says beside its name.
+// What a row's label says after its name.
 function graphNow(row) {
   if (!row.part) return "";
   return row.part.states ? machineStateAt(row.part, state.time) : number(parameterAt(row.part, state.time));

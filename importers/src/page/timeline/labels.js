@@ -4,7 +4,7 @@ const divider = document.getElementById("divider");
 const leastLabels = 110, leastStrip = 90;          // px
 const mostLabels = 290, mostShareOfLabels = 0.42;  // px and of the timeline, unless it is dragged wider
 
-// The room that a name takes beside its own width, by what stands before it: the sign to fold, the dot and the gaps.
+// The width that a row needs besides its name's: for the fold sign, the dot and the gaps.
 const besideName = row => indentOf(row) + (row.node && !row.lane ? 46 : 34);
 
 const nameWidths = new Map();
@@ -13,17 +13,17 @@ function nameWidth(text, small) {
   const key = (small ? "s" : "l") + text;
   if (!nameWidths.has(key)) {
     measuring.font = small ? font(11) : font(13, 650);
-    // A part of what is far longer than any screen is as good as all of it.
+    // Names far longer than any screen need not be measured in full.
     nameWidths.set(key, measuring.measureText(text.slice(0, 400)).width);
   }
   return nameWidths.get(key);
 }
-// What a machine or a parameter of a graph says of the present is as long as its longest state, or a number.
+// The longest text that the row of a machine (a state) or a parameter (a number) shows after its name.
 const longestNow = row => (row.part ? row.part.states ? ["", ...row.part.states].reduce((a, b) => (b.length > a.length ? b : a)) : "-000.000" : "");
 const labelWidth = row => besideName(row) +
   nameWidth(rowLabel(row) + (row.part ? ": " + longestNow(row) : ""), !!row.lane || (row.part && !row.part.states));
 
-// A row's name as the column has room for it.
+// A row's name, cut to the width of the column.
 function shownName(row, text) {
   const small = !!row.lane || (row.part && !row.part.states), room = columnWidth - besideName(row);
   if (nameWidth(text, small) <= room) return text;
@@ -31,7 +31,7 @@ function shownName(row, text) {
   return fittedName(measuring, text, room);
 }
 
-// Makes the column as wide as it shall be; returns whether it was not.
+// Sets the column to its right width; returns whether the width changed.
 let columnWidth = 200;  // px
 function fitLabels(rows) {
   const box = document.getElementById("timeline"), most = Math.max(leastLabels, box.clientWidth - leastStrip);
@@ -49,7 +49,7 @@ function fitLabels(rows) {
   return true;
 }
 
-// Dragging makes the column wider or narrower; a double click fits its longest name, and another goes back.
+// Dragging makes the column wider or narrower; a double click fits its longest name, and another undoes that.
 function wireLabels() {
   divider.addEventListener("pointerdown", event => {
     event.preventDefault();

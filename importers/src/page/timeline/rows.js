@@ -1,7 +1,7 @@
-// Which rows the timeline has: those of graphs, then a row for each node, below it a lane for each of its tracks and its children, unless it is
-// folded; or, while searching, all whose name has the text.
+// The rows of the timeline: those of graphs, then one per node, with one lane per track and its children below it unless it
+// is folded; or, while searching, all rows whose names contain the text.
 
-// What moves comes first; things that only stand there come last.
+// Fixed nodes without children come last.
 const standsThere = node => node.fixed && !node.children.length;
 const rootNodes = nodes.filter(node => node.parent < 0).sort((a, b) => standsThere(a) - standsThere(b));
 const rowHeight = row => (row.lane || (row.part && !row.part.states) ? 18 : 23);
@@ -9,7 +9,7 @@ const rowHeight = row => (row.lane || (row.part && !row.part.states) ? 18 : 23);
 const rowLabel = row => (row.graph ? (row.part ? row.part.name : row.graph.name)
   : row.lane ? row.lane.property : row.node.name) || "(no name)";
 const rowName = row => (row.graph ? graphRowName(row) : row.lane ? `${row.node.name}.${row.lane.property}` : row.node.name);
-// px; where the page is narrow, names need the room
+// The indent of a row, px; smaller on a narrow page, where names need the room.
 const indentOf = row => 4 + (innerWidth > 520 ? 11 : 4) * Math.min(6, row.depth + (row.lane ? 1 : 0));
 
 function visibleRows() {
@@ -49,7 +49,7 @@ function toggleFold(node, all = false) {
 function toggleAllFolds() {
   change({folded: state.folded.size ? new Set() : new Set(nodes.filter(node => node.lanes.length + node.children.length > 0))});
 }
-// Opens what hides a node.
+// Unfolds the ancestors that hide a node.
 function unfoldTo(node) {
   const folded = new Set(state.folded);
   for (let n = nodes[node.parent]; n; n = nodes[n.parent]) folded.delete(n);

@@ -1,16 +1,16 @@
 // The numbers of one node over time, in panels: what the curves draw.
 
-const mostGathered = 6000;  // frames of a node that are looked at for the range of its curves
+const mostGathered = 6000;  // most frames of a node that are examined for the range of its curves
 const seriesColors = ["x", "y", "z", "w", "driven", "free", "keyed", "key"];
 
-// The inverse of a 3 by 3 matrix, column by column; null when it is flat.
+// The inverse of a 3 by 3 matrix, column by column; null if it is singular.
 function inverse3(m) {
   const x = [m[0], m[1], m[2]], y = [m[3], m[4], m[5]], z = [m[6], m[7], m[8]], volume = dot3(x, cross3(y, z));
   if (!(Math.abs(volume) > 1e-30)) return null;
   return transposed3([...cross3(y, z), ...cross3(z, x), ...cross3(x, y)].map(value => value / volume));
 }
 
-// A node's place and linear part in the world, or as its parent sees it.
+// A node's position and linear part in the world, or in its parent's space.
 function placeIn(node, cursor, local) {
   const own = placeAt(recording, node, cursor);
   if (!local || node.parent < 0) return own;
@@ -19,7 +19,7 @@ function placeIn(node, cursor, local) {
   return {position: times3(back, own.position.map((value, i) => value - parent.position[i])), linear: product3(back, own.linear)};
 }
 
-// All numbers of a node at one instant; angles nearest to `last`.
+// All numbers of a node at one instant; the angles are those nearest to `last`.
 function numbersAt(node, cursor, local, last) {
   const place = placeIn(node, cursor, local), twist = twistAt(recording, node, cursor), {linear} = place;
   const shape = turnAndStretch(linear);
@@ -38,7 +38,7 @@ function panelsOf(node) {
   const held = recording.instances.find(instance => instance.node === node.index && recording.meshes[instance.mesh].morphs.length);
   const morphs = held ? recording.meshes[held.mesh].morphs : [];
   const small = 1e-6 * cast.radius / cast.unit;
-  // `least`: changes below it are rounding.
+  // `least`: smaller changes are rounding.
   return [
     {name: "position", title: "position", unit: "m", names: xyz, track: "position", least: small},
     {name: "velocity", title: "velocity", unit: "m/s", names: xyz, least: 10 * small},
@@ -70,30 +70,30 @@ function gather(node, local = state.local) {
       }
     if (!(panel.low <= panel.high)) panel.low = panel.high = 0;
     panel.flat = panel.high - panel.low <= panel.least + 1e-6 * Math.abs(panel.high);
-    // Tracks of the whole, and of single numbers of it.
+    // The lanes of tracks of the whole value, and of single numbers of it.
     panel.lanes = node.lanes.filter(lane => panel.track && (lane.property === panel.track || lane.property.startsWith(panel.track + ".")));
     panel.lane = panel.lanes[0];
-    // What hardly changes is shown flat, not its rounding.
+    // Values that hardly change are shown as a flat line, without their rounding errors.
     const room = panel.flat ? Math.max(0.5 * Math.abs(panel.high), 1e4 * panel.least) : (panel.high - panel.low) * 0.08;
     panel.high += room;
     panel.low -= room;
   }
-  // A scale of one throughout is no news.
+  // A scale that is 1 throughout is not shown.
   const shown = panels.filter(panel => panel.lane || panel.name !== "scale" || !panel.flat ||
     panel.series.some(values => Math.abs(values[0] - 1) > 1e-4));
-  // What never changes and is not keyed comes last.
+  // Panels that never change and are not keyed come last.
   const idle = panel => panel.flat && !panel.lane;
   gatheredCurves = {node, local, times: when, all, panels: shown, inOrder: shown.filter(panel => !idle(panel)).concat(shown.filter(idle))};
   return gatheredCurves;
 }
 
-// The numbers at any instant, with angles that go on from those of the frames.
+// The numbers at any instant, with angles continuous with those of the frames.
 function gatheredAt(gathered, time) {
   const near = gathered.all[Math.max(0, lastNotAbove(gathered.times.length, i => gathered.times[i], time))];
   return numbersAt(gathered.node, cursorAt(recording, time), gathered.local, near);
 }
 
-// The numbers along the stretch that is shown, about `count` of them and one at each frame where these are few.
+// The numbers along the span that is shown: about `count`, and one at each frame if the frames are few.
 function alongStretch(gathered, count) {
   const key = `${state.from} ${state.until} ${count}`;
   if (gathered.key === key) return gathered.along;

@@ -1,4 +1,4 @@
-// What is drawn along time: the ruler with its events, bars of owners, keys; and what each says when pointed at.
+// What is drawn along the time axis: the ruler with its events, bars of owners, keys; and the tooltip of each.
 
 const eventText = event => `${event.time.toFixed(3)} s  ${event.name}` + (event.kind && ": " + event.kind) +
   (event.nodes.length ? "\n" + event.nodes.map(node => nodes[node].name).join(" and ") : "") +
@@ -79,7 +79,7 @@ function drawOwners(context, node) {
   });
 }
 
-// Diamonds at `list`, thinned where they would lie on each other.
+// Diamonds at the times of `list`, thinned where they would overlap.
 function drawKeys(context, list, color, size = 3.5) {
   context.fillStyle = color;
   let last = -10;

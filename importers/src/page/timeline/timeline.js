@@ -1,4 +1,4 @@
-// The dope sheet: the rows that are in sight, made of a pool of elements, the ruler and the playhead.
+// The dope sheet: the ruler, the playhead, and the visible rows, made from a pool of elements.
 
 const ruler = document.querySelector("#ruler .strip");
 const rowsBox = document.getElementById("rows");
@@ -37,7 +37,7 @@ class Timeline {
     return held;
   }
 
-  // Gives each row that is in sight an element, and draws it.
+  // Gives each visible row an element, and draws it.
   place() {
     const {rows, height} = this.list, above = rowsBox.scrollTop - 200, below = rowsBox.scrollTop + rowsBox.clientHeight + 200;
     rowsFill.style.height = height + "px";
@@ -80,7 +80,7 @@ class Timeline {
     name.textContent = shownName(row, row.part ? `${row.part.name}: ${graphNow(row)}` : row.graph.name);
   }
 
-  // The rows anew: after folding, searching.
+  // Builds the rows again, after folding or searching.
   rebuild() {
     this.list = visibleRows();
     if (fitLabels(this.list.rows)) this.draw();
@@ -97,7 +97,7 @@ class Timeline {
   showChosen() {
     const row = state.chosen && this.list.rows.find(candidate => candidate.node === state.chosen);
     if (!row) return;
-    // With its keys, as far as there is room for them.
+    // Scrolls so far that its lanes are visible, too, as far as there is room.
     const own = this.list.rows.filter(candidate => candidate.node === row.node).pop();
     const bottom = own.top + rowHeight(own);
     if (bottom > rowsBox.scrollTop + rowsBox.clientHeight) rowsBox.scrollTop = bottom - rowsBox.clientHeight;
@@ -128,13 +128,13 @@ class Timeline {
   }
 }
 
-// The chosen node's neighbor in the list.
+// Chooses the neighbor of the chosen node in the list.
 function chooseNext(timeline, direction) {
   const list = timeline.list.rows.filter(row => row.node && !row.lane), at = list.findIndex(row => row.node === state.chosen);
   if (list.length) change({chosen: list[Math.min(list.length - 1, Math.max(0, at < 0 ? 0 : at + direction))].node});
 }
 
-// The first node that the text finds, or with the chosen one among them the next.
+// Chooses the first node that the search finds, or the next one if the chosen node is among the results.
 function chooseFound() {
   const found = state.find.trim() ? visibleRows().rows.filter(row => !row.lane).map(row => row.node) : [];
   const exact = found.filter(node => node.name.toLowerCase() === state.find.trim().toLowerCase());
