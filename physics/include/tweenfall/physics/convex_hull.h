@@ -1,6 +1,7 @@
 #pragma once
 
-/// Convex hulls: the smallest convex solid around points, as a polyhedron of polygons. What physics collides of a mesh.
+/// Convex hulls: the smallest convex solid around points, as a polyhedron of polygons. Physics collides with it in
+/// place of a mesh.
 
 #include <tweenfall/curves/surface_mesh.h>
 
@@ -13,9 +14,9 @@ namespace tweenfall {
 
 /// An immutable value, cheap to copy. The same points give the same hull, to the bit, on every machine.
 ///
-/// A point nearer to a face than about a millionth of the points' extent, more where the points are noisier than that,
-/// counts as lying in it: faces that lie so in one plane are one polygon, and points inside of faces and on straight
-/// edges are no vertices.
+/// A point nearer to a face than about a millionth of the points' extent, more if the points are noisier than that,
+/// counts as lying in it: faces that lie in one plane by this measure are one polygon, and points inside of faces and
+/// on straight edges are no vertices.
 class ConvexHull {
  public:
   static constexpr std::size_t most_vertices = 256;
@@ -23,7 +24,7 @@ class ConvexHull {
   struct Face {
     Vec3 normal;            ///< unit, outwards
     double offset;          ///< the hull lies where normal . x <= offset, m
-    std::uint32_t first;    ///< of its corners among all faces' corners
+    std::uint32_t first;    ///< index of its first corner among all faces' corners
     std::uint32_t corners;  ///< how many; >= 3
   };
   struct Edge {
@@ -37,9 +38,9 @@ class ConvexHull {
   explicit ConvexHull(std::span<const Vec3> points);
   /// The hull of the mesh's vertices.
   explicit ConvexHull(const SurfaceMesh& mesh);
-  /// The hull that has these vertices and faces, as another tells them, to the bit.
+  /// The hull with exactly these vertices and faces, to the bit.
   /// @param faces  corners among the vertices, counter-clockwise seen from outside
-  /// @throws std::invalid_argument when they are no convex hull
+  /// @throws std::invalid_argument when they do not form a convex hull
   ConvexHull(std::span<const Vec3> vertices, std::span<const std::vector<std::uint32_t>> faces);
   // Moving copies, so that no hull is ever without its data.
   ConvexHull(const ConvexHull&) noexcept = default;

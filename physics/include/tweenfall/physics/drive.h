@@ -13,19 +13,19 @@ namespace tweenfall {
 enum class Owner { keyed, driven, free };
 
 struct Drive {
-  /// With what the path of a driven body is carried along. A world by itself knows of no parents: a stage leads its
-  /// bodies' targets.
+  /// What carries along the path of a driven body. A world alone knows of no parents: a stage leads the
+  /// targets of its bodies.
   enum class Frame {
-    world,   ///< nothing: it lies where it was authored
-    parent,  ///< the nearest node above that has a body, as that body really is
-    anchor,  ///< the topmost node above that has a body: a figure keeps its pose wherever its root really is
+    world,   ///< nothing: the path stays where it was authored
+    parent,  ///< the nearest ancestor that has a body, as that body really moves
+    anchor,  ///< the topmost ancestor that has a body: a figure keeps its pose wherever its root really is
   };
   double hz = 0;    ///< undamped frequency of the pull, cycles per second; 0 free, infinity keyed
   double zeta = 1;  ///< damping ratio; 1 is critical
   double max_force = std::numeric_limits<double>::infinity();   ///< N
   double max_torque = std::numeric_limits<double>::infinity();  ///< N m
-  double gravity_compensation = 0;  ///< share of a driven body's weight that is borne beside the pull, 0 to 1
-  Frame frame = Frame::world;       ///< of a driven body; what carries it does not feel the pull
+  double gravity_compensation = 0;  ///< share of a driven body's weight that is carried in addition to the pull, 0 to 1
+  Frame frame = Frame::world;       ///< of a driven body; the body that carries it does not feel the pull
 
   [[nodiscard]] static constexpr Drive keyed() { return {.hz = std::numeric_limits<double>::infinity()}; }
   [[nodiscard]] static constexpr Drive free() { return {.hz = 0}; }

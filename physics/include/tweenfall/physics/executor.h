@@ -1,7 +1,7 @@
 #pragma once
 
-/// Who does the parts of a step: the thread that asks for it, a pool of threads, or a job system of the caller's own.
-/// What comes out of a step never depends on it, not in a bit.
+/// Who does the parts of a step: the calling thread, a pool of threads, or a job system of the caller's own.
+/// The result of a step never depends on it, not in one bit.
 
 #include <concepts>
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace tweenfall {
 
-/// Work in numbered parts, which can be done in any order and at the same time. Refers to a callable, which must live
-/// for as long as it does.
+/// Work in numbered parts, which can be done in any order and at the same time. Refers to a callable that must outlive
+/// it.
 class Work {
  public:
   template <class Callable>
@@ -35,23 +35,23 @@ class Executor {
   virtual ~Executor() = default;
 
   /// Calls `work(i)` once for each i from 0 to count - 1, in any order and on any threads, and returns when all calls
-  /// have. `work` throws nothing. Worlds that share an executor may call this at the same time.
+  /// have returned. `work` throws nothing. Worlds that share an executor may call this at the same time.
   virtual void for_each(std::size_t count, const Work& work) = 0;
-  /// How many parts it does at the same time, about; >= 1.
+  /// About how many parts it does at the same time; >= 1.
   [[nodiscard]] virtual std::size_t threads() const noexcept = 0;
 };
 
-/// The thread that asks, one part after the other.
+/// The calling thread, one part after the other.
 class SerialExecutor final : public Executor {
  public:
   void for_each(std::size_t count, const Work& work) override;
   [[nodiscard]] std::size_t threads() const noexcept override { return 1; }
 };
 
-/// The thread that asks and others, which wait for work from the first that there is until the pool is destroyed.
+/// The calling thread and others, which wait for work until the pool is destroyed.
 class ThreadPool final : public Executor {
  public:
-  /// @param threads  the asking one among them. @throws std::invalid_argument for none, or more than 256
+  /// @param threads  including the calling thread. @throws std::invalid_argument for none, or more than 256
   explicit ThreadPool(std::size_t threads);
   ~ThreadPool() override;
 

@@ -1,9 +1,9 @@
 #pragma once
 
-/// A general system of first order, x' = f(x, t), through time by any of the integrators that a world has.
+/// Integrates a general system of first order, x' = f(x, t), by any of the integrators that a world has.
 ///
-/// Motion is such a system: its state is places and speeds, and its rates are speeds and accelerations. So is anything
-/// else whose rates follow from its state: populations, temperatures, orbits in a strange field.
+/// Motion is such a system: its state is positions and velocities, and its rates are velocities and accelerations. So
+/// is anything else whose rates follow from its state: populations, temperatures, orbits in a strange field.
 
 #include <tweenfall/physics/world.h>
 
@@ -15,20 +15,21 @@
 namespace tweenfall {
 
 /// x' = f(x, t).
-/// @param rates  written; as long as the state
+/// @param rates  the output; as long as the state
 using FirstOrder = std::function<void(double time, std::span<const double> state, std::span<double> rates)>;
 
-/// Steps a system on. Of the integrators that treat places and speeds unlike (`exact_quadratic`, which is `verlet`
-/// here, `verlet` and `semi_implicit_euler`) the first half of the state is places, the second half their speeds.
+/// Advances a system by steps. Some integrators treat positions and velocities differently: `verlet`,
+/// `semi_implicit_euler`, and `exact_quadratic`, which is `verlet` here. For these, the first half of the state is
+/// positions, the second half their velocities.
 class FirstOrderStepper {
  public:
   /// @param state  at the start
   /// @throws std::invalid_argument without rates, for a state that is empty or not finite, for a time that is not
-  /// finite, for an integrator that is none, and for an odd number of numbers where half of them are places
+  /// finite, for an unknown integrator, and for a state of odd length where half of it must be positions
   FirstOrderStepper(FirstOrder rates, std::vector<double> state, Integrator integrator, double time = 0);
 
-  /// One step of `dt` seconds, which may be negative: then it goes back. What grows beyond all numbers is infinite or
-  /// none from there on. Throws what the rates throw; nothing has moved then.
+  /// One step of `dt` seconds, or back in time if dt is negative. Values that grow beyond all numbers stay infinite or
+  /// not a number from there on. Throws what the rates throw; nothing has changed then.
   /// @throws std::invalid_argument when dt is not finite
   void step(double dt);
 
@@ -45,13 +46,13 @@ class FirstOrderStepper {
   std::vector<std::vector<double>> room_;
 };
 
-/// A system's way: `count` states after the first, a step apart.
+/// The path of a system: `count` states after the first, a step apart.
 struct FirstOrderPath {
   std::vector<double> times;                ///< s
-  std::vector<std::vector<double>> states;  ///< one for each time
+  std::vector<std::vector<double>> states;  ///< one per time
 };
 
-/// @throws as FirstOrderStepper does, and when there would be more than ten million numbers
+/// @throws as FirstOrderStepper does, and for more than ten million numbers in all
 [[nodiscard]] FirstOrderPath first_order_path(const FirstOrder& rates, const std::vector<double>& start,
                                               Integrator integrator, double dt, std::size_t count, double time = 0);
 

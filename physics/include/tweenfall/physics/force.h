@@ -1,7 +1,7 @@
 #pragma once
 
-/// Forces that act on bodies between contacts. They add up, at any state that an integrator asks about, and may be
-/// limited to some bodies and have a strength that is scripted (`strength.h`).
+/// Forces that act on bodies between contacts. They add up, can be evaluated at any state an integrator asks for, may
+/// be limited to some bodies and may have a scripted strength (`strength.h`).
 
 #include <tweenfall/curves/pose.h>
 #include <tweenfall/physics/strength.h>
@@ -29,8 +29,8 @@ struct Drag {
   double angular = 0;    ///< kg m^2/s
 };
 
-/// A damped spring between a point of a body and a point of another, or of the world. Of any stiffness: one that would
-/// swing by about a radian or more within a step is taken implicitly, which is stable and damps it.
+/// A damped spring between a point of a body and a point of another, or of the world. It may be of any stiffness: one
+/// that would swing by about a radian or more within a step is taken implicitly, which is stable and damps it.
 struct Spring {
   BodyId a;                ///< pulled
   BodyId b = {};           ///< pulled the other way; the default handle means the world
@@ -41,8 +41,8 @@ struct Spring {
   double damping = 0;      ///< N s/m, along the spring
 };
 
-/// A dashpot between two such points: -damping times the rate of their distance, along the line between them. However
-/// much damping there is, it is stable.
+/// A dashpot between two such points: -damping times the rate of their distance, along the line between them. It is
+/// stable with any amount of damping.
 struct Damper {
   BodyId a;
   BodyId b = {};  ///< the default handle means the world
@@ -50,8 +50,8 @@ struct Damper {
   double damping = 0;  ///< N s/m
 };
 
-/// A medium that moves: resistance to the velocity against it. With a coefficient, also 1/2 rho C A |v| v, where A is
-/// how large the body looks along that velocity (parts of a compound each by itself, in nobody's lee).
+/// A medium that moves: resistance to the velocity relative to it. With a coefficient, also 1/2 rho C A |v| v, where A
+/// is the area the body shows along that velocity (each part of a compound counts fully, as nothing shields it).
 struct Wind {
   Vec3 velocity{0, 0, 0};   ///< of the medium, m/s
   double linear = 0;        ///< kg/s
@@ -61,20 +61,20 @@ struct Wind {
   double density = 1.2041;  ///< rho of the medium, kg/m^3: of air at 20 degrees
 };
 
-/// A liquid below a plane surface: holds a body up by the weight of the liquid that it displaces, at the middle of the
-/// part that is under, and resists what moves in it, by the share that is under.
+/// A liquid below a plane surface: it lifts a body by the weight of the displaced liquid, at the center of the
+/// submerged part, and resists its motion in proportion to the submerged share.
 /// Source: Archimedes; volumes are exact for spheres, boxes and hulls, and to about 1e-10 for other round solids.
 struct Buoyancy {
   Vec3 normal{0, 1, 0};   ///< of the surface, out of the liquid; any length but 0
   double level = 0;       ///< of the surface along the normal, m
   double density = 1000;  ///< of the liquid, kg/m^3
-  Drag drag = {};         ///< of what is wholly under
+  Drag drag = {};         ///< of a fully submerged body
   Vec3 flow{0, 0, 0};     ///< velocity of the liquid, m/s
 };
 
-/// Draws toward a point, by an acceleration of `acceleration` / r^power, r being sqrt(distance^2 + softening^2). With
-/// power 2 that is Newton's gravity of a mass of `acceleration` / G. Not drawn itself: two that draw each other are two
-/// attractors.
+/// Draws bodies toward a point, by an acceleration of `acceleration` / r^power, with r = sqrt(distance^2 +
+/// softening^2). With power 2 that is Newton's gravity of a mass of `acceleration` / G. The attractor itself is not
+/// drawn: two bodies that draw each other are two attractors.
 struct Attractor {
   BodyId of = {};           ///< whose point it is; the default handle means the world
   Vec3 at{0, 0, 0};         ///< on that body's node, or in the world, m
@@ -84,8 +84,8 @@ struct Attractor {
   bool by_mass = true;      ///< false: a force in N in place of the acceleration
 };
 
-/// Drives around an axis, counterclockwise for who looks against it, by an acceleration of `acceleration` / r^power,
-/// with r as above from the axis; and draws toward it by `inward` times that.
+/// Drives bodies around an axis, counterclockwise as seen against it, by an acceleration of `acceleration` / r^power,
+/// with r as above but measured from the axis; and draws them toward it by `inward` times that.
 struct Vortex {
   Vec3 at{0, 0, 0};    ///< a point of the axis, m
   Vec3 axis{0, 1, 0};  ///< any length but 0
@@ -96,7 +96,7 @@ struct Vortex {
 };
 
 /// A force by formulas of x, y, z (of the center of mass, m), vx, vy, vz (m/s), t (time of the world, s) and mass (kg).
-/// Where one has no finite value 0 stands in.
+/// A component that has no finite value counts as 0.
 class ForceFormula {
  public:
   using Parameter = Expression::Parameter;
@@ -107,12 +107,12 @@ class ForceFormula {
   /// @param force  its three components, N
   /// @throws ExpressionError
   explicit ForceFormula(std::array<std::string, 3> force, std::vector<Parameter> parameters = {});
-  /// The force of a potential energy in J: the way it falls, exactly. Not of vx, vy or vz.
+  /// The force of a potential energy in J: its exact negative gradient. The energy may not use vx, vy or vz.
   /// @throws ExpressionError
   [[nodiscard]] static ForceFormula potential(std::string energy, std::vector<Parameter> parameters = {});
 
   [[nodiscard]] Vec3 force(double mass, const Vec3& position, const Vec3& velocity, double time) const noexcept;
-  /// J; none unless it was made from a potential.
+  /// J; empty unless it was made from a potential.
   [[nodiscard]] std::optional<double> energy(double mass, const Vec3& position, double time) const noexcept;
   [[nodiscard]] bool reads_time() const noexcept { return reads_time_; }
 
@@ -135,22 +135,22 @@ class ForceFormula {
 struct Push {
   BodyId body;
   Vec3 force{0, 0, 0};       ///< N
-  Vec3 torque{0, 0, 0};      ///< N m, besides the one that the force has about the center of mass
+  Vec3 torque{0, 0, 0};      ///< N m, in addition to the one that the force has about the center of mass
   std::optional<Vec3> at{};  ///< where the force acts, on the body's node, m; absent: at its center of mass
-  bool turns = false;        ///< force and torque turn with the body; else they keep to the world's axes
+  bool turns = false;        ///< force and torque turn with the body; otherwise they keep to the world's axes
 };
 
 /// A force field: force in N on a body, from its mass and the motion of its center of mass. A world with a field keeps
-/// its bodies awake, for a field may change. It may read the world that it acts in and throw, but not change it: calls
-/// that would change it throw std::logic_error, and it must not be destroyed or assigned to.
+/// its bodies awake, since a field may change. It may read the world that it acts in and throw, but not change it:
+/// calls that would change it throw std::logic_error, and it must not be destroyed or assigned to.
 using Field = std::function<Vec3(double mass, const Vec3& position, const Vec3& velocity, double time)>;
 
 using Force = std::variant<Drag, Spring, Field, Damper, Wind, Buoyancy, Attractor, Vortex, ForceFormula, Push>;
 
-/// On whom a force acts, and how strongly.
+/// Which bodies a force acts on, and how strongly.
 struct ForceSettings {
-  std::vector<BodyId> bodies = {};  ///< none: all; not for those that name their bodies themselves
-  Strength strength = {};           ///< factor; of drag, springs, dampers, wind and buoyancy below 0 counts as 0
+  std::vector<BodyId> bodies = {};  ///< empty: all; ignored by forces that name their bodies themselves
+  Strength strength = {};           ///< factor; for drag, springs, dampers, wind and buoyancy, negative counts as 0
 };
 
 }  // namespace tweenfall

@@ -1,10 +1,10 @@
 #pragma once
 
-/// What things weigh: mass, center of mass and inertia of points, of solids, of meshes and of what is put together from
-/// them, at one density or at one that varies from place to place.
+/// Mass, center of mass and inertia of points, of solids, of meshes and of what is put together from
+/// them, with an even density or with one that varies from place to place.
 ///
-/// A body has those of its shape, filled evenly, by itself. Where it is heavier at one end, `weigh` its shape by a
-/// density that is a function of the place, or put parts together, and give `BodySettings::mass_properties` the result.
+/// By default a body has those of its shape, filled evenly. If it is heavier at one end, `weigh` its shape with a
+/// density that is a function of position, or combine parts, and give the result to `BodySettings::mass_properties`.
 
 #include <tweenfall/physics/shape.h>
 
@@ -21,7 +21,7 @@ struct PointMass {
   Vec3 position{0, 0, 0};  ///< m
 };
 
-/// A ball stretched along its axes. It has mass; as the shape of a body, take the convex hull of points on it.
+/// A ball stretched along its axes. It has only mass; as the shape of a body, take the convex hull of points on it.
 struct Ellipsoid {
   Vec3 semi_axes{0.5, 0.5, 0.5};  ///< m; each > 0
 };
@@ -29,35 +29,36 @@ struct Ellipsoid {
 // Mass given
 
 /// Of a system of points: c = sum m r / sum m, and the inertia about it.
-/// @throws std::invalid_argument naming the point: none, a mass not > 0, a place that is not finite.
+/// @throws std::invalid_argument for no points, and naming the point for a mass not > 0 or a position that is not
+/// finite.
 [[nodiscard]] MassProperties mass_properties(std::span<const PointMass> points);
 
 [[nodiscard]] double volume(const Ellipsoid& ellipsoid) noexcept;  ///< m^3
-/// Of an even ellipsoid about its middle, its axes along x, y, z.
+/// Of an even ellipsoid about its center, its axes along x, y, z.
 /// @throws std::invalid_argument for an axis not > 0, or mass not > 0.
 [[nodiscard]] MassProperties mass_properties(const Ellipsoid& ellipsoid, double mass);
 
-/// Of parts that move as one, all told in one frame, by the parallel-axis theorem.
-/// @throws std::invalid_argument naming the part: none, or one that `validate` refuses.
+/// Of parts that move as one, all given in one frame, by the parallel-axis theorem.
+/// @throws std::invalid_argument for no parts, and naming the part for one that `validate` refuses.
 [[nodiscard]] MassProperties mass_properties(std::span<const MassProperties> parts);
 
 /// What keeps a mesh from having mass properties, in words that name the vertex, the triangle or the edge; empty for a
-/// mesh that is closed, with all its triangles wound outwards.
+/// closed mesh with all its triangles wound outwards.
 [[nodiscard]] std::string fault_of_solid(const SurfaceMesh& mesh);
 
-/// @throws std::invalid_argument unless mass is > 0, all is finite, and the inertia is one that something can have:
-/// symmetric, with principal moments of which none exceeds the sum of the others. Points on a line have a moment of 0;
+/// @throws std::invalid_argument unless mass is > 0, all is finite, and the inertia is possible:
+/// symmetric, with no principal moment greater than the sum of the others. Points on a line have a moment of 0;
 /// a body must not.
 void validate(const MassProperties& properties);
 
 // Density given
 
-/// How much there is at a place: a number, or a function.
+/// How dense a solid is: the same everywhere, or a function of position.
 class Density {
  public:
   /// @param even  kg/m^3; > 0
   explicit Density(double even);
-  /// @param at  kg/m^3, finite and >= 0 at every place of the solid, m, in the frame in which the solid is told
+  /// @param at  kg/m^3, finite and >= 0 at every point of the solid, m, in the frame in which the solid is given
   explicit Density(std::function<double(const Vec3&)> at);
 
   [[nodiscard]] bool even() const noexcept { return !at_; }
@@ -68,13 +69,13 @@ class Density {
   std::function<double(const Vec3&)> at_;
 };
 
-/// How exactly a density is summed up.
+/// How exactly a density is integrated.
 struct Quadrature {
   double tolerance = 1e-9;                   ///< error of the mass, relative; 1e-13 to 1
-  std::size_t most_evaluations = 2'000'000;  ///< of the density; where they end, so does it, with the error it has
+  std::size_t most_evaluations = 2'000'000;  ///< of the density; integration ends there, with the error it then has
 };
 
-/// Mass properties by quadrature, and how far off they may be.
+/// Mass properties by quadrature, and estimates of their errors.
 struct WeighedProperties {
   MassProperties properties;
   double mass_error = 0;        ///< kg
@@ -83,25 +84,25 @@ struct WeighedProperties {
   std::size_t evaluations = 0;  ///< of the density
 };
 
-/// A solid of that density. An even one is in closed form, without error; else the solid is cut into images of cubes,
-/// and those into halves across the direction that errs most, until the error is what it may be. The errors told are
-/// sums of differences between two rules, which for a smooth density are far above the true ones.
-/// Source: the rule of seven points that Kronrod adds to Gauss's of three (Laurie, "Calculation of Gauss-Kronrod
+/// A solid of that density. An even one is in closed form, without error; otherwise the solid is cut into images of
+/// cubes, and those into halves across the direction with the greatest error, until the error is within the tolerance.
+/// The reported errors are sums of differences between two rules, which for a smooth density are far above the true
+/// ones. Source: the rule of seven points that Kronrod adds to Gauss's of three (Laurie, "Calculation of Gauss-Kronrod
 /// quadrature rules", 1997), adapted as in Berntsen, Espelid, Genz, "An adaptive algorithm for the approximate
 /// calculation of multiple integrals", 1991.
-/// @throws std::invalid_argument for what is scenery, a density that is negative or not finite, naming the place, and a
+/// @throws std::invalid_argument for scenery, a density that is negative or not finite, naming the place, and a
 /// solid without mass.
 [[nodiscard]] WeighedProperties weigh(const Shape& shape, const Density& density, const Quadrature& quadrature = {});
 [[nodiscard]] WeighedProperties weigh(const Ellipsoid& ellipsoid, const Density& density,
                                       const Quadrature& quadrature = {});
-/// What a closed mesh encloses. Its tetrahedra reach from its center of mass to its triangles: where they leave the
-/// mesh, in bays of it, the density is asked too, and cancels.
+/// The inside of a closed mesh. It is cut into tetrahedra from its center of mass to its triangles: where these leave
+/// the mesh, at hollows in it, the density is evaluated too, and cancels.
 [[nodiscard]] WeighedProperties weigh(const SurfaceMesh& mesh, const Density& density,
                                       const Quadrature& quadrature = {});
 
 // Seen from elsewhere
 
-/// The same thing carried to another place and turned; scale is not read.
+/// The same thing moved and turned; scale is ignored.
 [[nodiscard]] MassProperties moved(const MassProperties& properties, const Pose& pose);
 
 /// Scalar moment about the axis through a point, kg m^2.

@@ -25,11 +25,11 @@ struct Box {
 /// A convex polygon; its center of mass need not be its origin.
 struct Polygon {
   static constexpr std::size_t most_corners = 64;
-  std::vector<Vec2> corners;  ///< one after the other around it, either way, m; 3 to 64, each turning the same way
+  std::vector<Vec2> corners;  ///< in order around the outline, either way, m; 3 to 64, each turning the same way
 };
-/// Everything behind a line without end; only for bodies that never move by themselves.
+/// Everything behind an infinite line; only for bodies that never move by themselves.
 struct HalfPlane {
-  Vec2 normal{0, 1};  ///< out of the solid; need not be of unit length, but longer than 0
+  Vec2 normal{0, 1};  ///< out of the solid; any length but 0
   double offset = 0;  ///< points x of the line have normal . x = offset for the unit normal, m
 };
 
@@ -39,7 +39,7 @@ struct Part {
   Vec2 offset{0, 0};  ///< of the outline, m
   double angle = 0;   ///< rad
 };
-/// Several outlines that move as one, each with contacts of its own. Where parts overlap, what is there counts twice.
+/// Several outlines that move as one, each with its own contacts. Where parts overlap, their mass counts twice.
 struct Compound {
   static constexpr std::size_t most_parts = 4096;
   std::vector<Part> parts;  ///< 1 to 4096
@@ -51,17 +51,17 @@ using Outline = std::variant<Circle, Capsule, Box, Polygon, HalfPlane, Compound>
 struct Shape {
   Outline outline = Circle{};
   Vec2 offset{0, 0};  ///< of the outline from the node, m
-  double angle = 0;   ///< of the outline against the node, rad
+  double angle = 0;   ///< of the outline relative to the node, rad
 };
 
-/// Where a body is: its node's origin and how it is turned, counterclockwise.
+/// Where a body is: its node's origin and its rotation, counterclockwise.
 struct Place {
   Vec2 position{0, 0};  ///< m
   double angle = 0;     ///< rad, any number of turns
 };
 
 /// @throws std::invalid_argument naming the size that is not positive or not finite, or the corner that turns the wrong
-/// way, and in a compound the number of the part.
+/// way, and for a compound the index of the part.
 void validate(const Shape& shape);
 
 [[nodiscard]] double area(const Outline& outline);  ///< m^2; infinity for a half-plane
@@ -72,8 +72,8 @@ struct MassProperties {
   double moment = 0;  ///< of inertia about the center of mass, kg m^2
 };
 
-/// Of a uniform plate. Sources: closed forms, e.g. Goldstein, Classical Mechanics; of polygons Green's theorem over the
-/// corners; of compounds the parallel-axis theorem.
+/// Of a uniform plate. Sources: closed forms, e.g. Goldstein, Classical Mechanics; for polygons Green's theorem over
+/// the corners; for compounds the parallel-axis theorem.
 /// @throws std::invalid_argument for a half-plane, or mass not > 0.
 [[nodiscard]] MassProperties mass_properties(const Shape& shape, double mass);
 
@@ -90,7 +90,7 @@ struct Manifold {
   int count = 0;  ///< 0 when the shapes are farther apart than the margin
 };
 
-/// Contact of two placed shapes; of compounds that of the two parts that are deepest in each other, or nearest.
+/// Contact of two placed shapes; for compounds, of the two parts that overlap most deeply or are nearest.
 /// @param margin  points with a gap up to this are reported too, m; >= 0
 [[nodiscard]] Manifold collide(const Shape& a, const Place& place_a, const Shape& b, const Place& place_b,
                                double margin = 0);

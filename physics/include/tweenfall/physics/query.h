@@ -2,11 +2,11 @@
 
 /// Questions about where shapes and bodies are: rays, moving shapes, overlaps, distances.
 ///
-/// Nothing here changes a world, and what was added, moved or removed since its last step counts at once: bodies are
-/// where `World::motion` tells. Several threads may ask the same world at a time. A solid is closed: its surface
+/// Nothing here changes a world, and anything added, moved or removed since its last step counts at once: bodies are
+/// where `World::motion` says. Several threads may query the same world at a time. A solid is closed: its surface
 /// belongs to it. A plane is the half space behind it. A
-/// triangle mesh or height field is a surface: rays and moving shapes meet its front alone, distances and overlaps are
-/// those of the surface, from either side. What a surface's normal is told of points out of the solid that
+/// triangle mesh or height field is a surface: rays and moving shapes hit its front only, distances and overlaps are
+/// those of the surface, from either side. A surface normal points out of the solid that
 /// was hit.
 
 #include <tweenfall/physics/world.h>
@@ -18,12 +18,12 @@
 
 namespace tweenfall {
 
-// Two shapes; each where its node's pose puts it
+// Two shapes, each placed by the pose of its node
 
 struct RayHit {
   double distance = 0;   ///< along the ray, m
   Vec3 point{0, 0, 0};   ///< world
-  Vec3 normal{0, 1, 0};  ///< unit, out of the solid; against the ray where that starts inside
+  Vec3 normal{0, 1, 0};  ///< unit, out of the solid; against the ray where the ray starts inside
   bool inside = false;   ///< the ray starts in the solid: it is hit at once, at its start
 };
 
@@ -36,13 +36,13 @@ struct RayHit {
                                              double length = std::numeric_limits<double>::infinity());
 
 struct ShapeHit {
-  double fraction = 0;   ///< of the displacement that is free, 0 to 1
-  Vec3 point{0, 0, 0};   ///< where they then touch, world
+  double fraction = 0;   ///< the free part of the displacement, 0 to 1
+  Vec3 point{0, 0, 0};   ///< where the two touch then, world
   Vec3 normal{0, 1, 0};  ///< unit, out of the shape that was hit
-  bool inside = false;   ///< they overlap from the start; the normal is then the short way out
+  bool inside = false;   ///< the two overlap from the start; the normal is then the shortest way out
 };
 
-/// How far `moving` gets, without turning, until it meets `shape`: to a billionth of their size.
+/// How far `moving` gets, without turning, until it hits `shape`: to a billionth of their size.
 /// Source: conservative advancement, Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, chapter 2.
 /// @throws std::invalid_argument for numbers that are not finite, or two planes
 [[nodiscard]] std::optional<ShapeHit> cast_shape(const Shape& moving, const Pose& start, const Vec3& displacement,
@@ -50,7 +50,7 @@ struct ShapeHit {
 
 struct Separation {
   double distance = 0;  ///< m; 0 where they touch or overlap
-  Vec3 on_a{0, 0, 0};   ///< the nearest points, world; of shapes that overlap one that both hold
+  Vec3 on_a{0, 0, 0};   ///< the nearest points, world; for overlapping shapes, one common point
   Vec3 on_b{0, 0, 0};
 };
 
@@ -61,17 +61,17 @@ struct Separation {
 [[nodiscard]] Separation distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 [[nodiscard]] bool overlapping(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 
-/// The point of a solid that is nearest to `point`: that itself where it is inside.
+/// The point of a solid that is nearest to `point`: `point` itself where it is inside.
 [[nodiscard]] Vec3 closest_point(const Shape& shape, const Pose& pose, const Vec3& point);
 
 // All bodies of a world
 
-/// Whom a question is about.
+/// Which bodies, or nodes, a query considers.
 template <class Who>
 struct Asked {
-  std::uint64_t groups = ~std::uint64_t{0};  ///< bodies that belong to one of these
-  bool sensors = false;                      ///< and, of sensors, only if they are asked for
-  std::function<bool(Who)> accept{};         ///< and of them those that it is true for; absent: all
+  std::uint64_t groups = ~std::uint64_t{0};  ///< only bodies that belong to one of these
+  bool sensors = false;                      ///< whether sensors are included
+  std::function<bool(Who)> accept{};         ///< only those for which it returns true; absent: all
 };
 using QueryFilter = Asked<BodyId>;
 
@@ -87,22 +87,22 @@ struct NearestBody {
   Vec3 point{0, 0, 0};  ///< of the body, world
 };
 
-/// The first body that a ray meets; of several at one distance the one with the smallest index.
-/// @throws std::invalid_argument as for one shape; so all below
+/// The first body that a ray hits; of several at the same distance, the one with the smallest index.
+/// @throws std::invalid_argument as for one shape; likewise for all functions below
 [[nodiscard]] std::optional<BodyRayHit> cast_ray(const World& world, const Vec3& from, const Vec3& direction,
                                                  double length = std::numeric_limits<double>::infinity(),
                                                  const QueryFilter& filter = {});
-/// All bodies on the ray, each once where the ray first meets it, by distance and then by index.
+/// All bodies on the ray, each where the ray first hits it, by distance and then by index.
 [[nodiscard]] std::vector<BodyRayHit> cast_ray_through(const World& world, const Vec3& from, const Vec3& direction,
                                                        double length = std::numeric_limits<double>::infinity(),
                                                        const QueryFilter& filter = {});
-/// The first body that the shape meets on its way; not for a plane.
+/// The first body that the shape hits on its way; the shape may not be a plane.
 [[nodiscard]] std::optional<BodyShapeHit> cast_shape(const World& world, const Shape& shape, const Pose& start,
                                                      const Vec3& displacement, const QueryFilter& filter = {});
-/// The bodies that touch or overlap the shape, by index; not for a plane.
+/// The bodies that touch or overlap the shape, by index; the shape may not be a plane.
 [[nodiscard]] std::vector<BodyId> overlapping(const World& world, const Shape& shape, const Pose& pose,
                                               const QueryFilter& filter = {});
-/// The body nearest to a point, if one is at most so far away.
+/// The body nearest to a point, if one is no farther away than `within`.
 [[nodiscard]] std::optional<NearestBody> nearest_body(const World& world, const Vec3& point,
                                                       double within = std::numeric_limits<double>::infinity(),
                                                       const QueryFilter& filter = {});

@@ -36,11 +36,11 @@ struct Cone {
   double radius = 0.5;       ///< of the base, m; > 0
   double half_height = 0.5;  ///< half the distance from base to tip, m; > 0
 };
-/// All that lies between two balls on the local y axis.
+/// The convex hull of two balls on the local y axis.
 struct TaperedCapsule {
   double bottom_radius = 0.25;  ///< of the ball at -y, m; > 0
   double top_radius = 0.15;     ///< of the ball at +y, m; > 0
-  double half_height = 0.5;     ///< half the distance between their centers, m; neither ball holds the other
+  double half_height = 0.5;     ///< half the distance between their centers, m; neither ball contains the other
 };
 /// Everything behind an infinite plane; only for bodies that never move by themselves.
 struct Plane {
@@ -56,14 +56,14 @@ struct Hull {
 struct Shape;
 
 /// Several solids that move as one, each with its own contacts. An immutable value, cheap to copy. Where parts overlap,
-/// what is there counts twice.
+/// their mass counts twice.
 class Compound {
  public:
   static constexpr std::size_t most_parts = 4096;
 
-  /// @param parts  solids and their places in the compound's space
-  /// @throws std::invalid_argument for no parts or too many, planes, meshes, fields and compounds in it, and sizes that
-  /// cannot be
+  /// @param parts  solids and their poses in the compound's space
+  /// @throws std::invalid_argument for no parts or too many, for planes, meshes, fields and compounds among them, and
+  /// for impossible sizes
   explicit Compound(std::vector<Shape> parts);
   // Moving copies, so that no compound is ever without its parts.
   Compound(const Compound&) noexcept = default;
@@ -78,16 +78,16 @@ class Compound {
 using Solid = std::variant<Sphere, Box, Capsule, Plane, Hull, Cylinder, Cone, TaperedCapsule, Compound, TriangleMesh,
                            HeightField>;
 
-/// What has no end or no volume, and so no mass: a plane, a triangle mesh or a height field. Only bodies that never
-/// move by themselves can be of such a shape.
+/// Whether a solid has no end or no volume, and so no mass: a plane, a triangle mesh or a height field. Only bodies
+/// that never move by themselves can have such a shape.
 [[nodiscard]] bool is_scenery(const Solid& solid) noexcept;
 /// In words: "a plane", "a box", ...
 [[nodiscard]] const char* kind_name(const Solid& solid) noexcept;
 
-/// A solid and its place on the node that carries it.
+/// A solid and its pose on the node that carries it.
 struct Shape {
   Solid solid = Sphere{};
-  Pose offset = {};  ///< of the solid, relative to the node; scale is not read
+  Pose offset = {};  ///< of the solid, relative to the node; scale is ignored
 };
 
 struct MassProperties {
@@ -99,17 +99,17 @@ struct MassProperties {
 /// @throws std::invalid_argument naming the size that is not positive or not finite.
 void validate(const Solid& solid);
 
-[[nodiscard]] double volume(const Solid& solid) noexcept;  ///< m^3; infinity for what is scenery
+[[nodiscard]] double volume(const Solid& solid) noexcept;  ///< m^3; infinity for scenery
 
 /// Mass properties of a uniform solid of the given mass. Sources: closed forms, e.g. Goldstein, Classical Mechanics.
-/// @throws std::invalid_argument for what is scenery, or mass not > 0.
+/// @throws std::invalid_argument for scenery, or mass not > 0.
 [[nodiscard]] MassProperties mass_properties(const Shape& shape, double mass);
 
-/// Mass properties of what a closed mesh encloses, filled evenly, in the mesh's own space.
+/// Mass properties of the volume inside a closed mesh, filled evenly, in the mesh's own space.
 /// @throws std::invalid_argument for a mesh that is open or inside out, naming the edge or triangle, or mass not > 0.
 [[nodiscard]] MassProperties mass_properties(const SurfaceMesh& mesh, double mass);
 
-/// The same properties about the frame moved by the parallel-axis theorem: inertia about `point` (node frame).
+/// The inertia about `point` (node frame) instead, by the parallel-axis theorem.
 [[nodiscard]] Mat3 inertia_about(const MassProperties& properties, const Vec3& point) noexcept;
 
 /// Axis-aligned box around a placed shape.

@@ -1,55 +1,56 @@
 #pragma once
 
-/// Other ways to do what a world's step does, beside the usual ones: each is what a textbook tells, to be read, seen
-/// and compared. The usual ones are the fastest and the most exact.
+/// Alternatives to parts of a world's step: each is a textbook method, to be read, watched
+/// and compared. The defaults are the fastest and the most exact.
 ///
-/// Where a world asks for another solver, separation or collision, all its islands of contacts go by these, with the
-/// usual ones of the others in their plain form: the iterative solver in one sweep after the other, and overlap taken
-/// apart by positional impulses. Islands that joints, drives or springs too stiff for the step hold go as usual.
+/// If a world asks for another solver, separation or collision, all its islands of contacts use them, and the
+/// defaults of the others in their plain form: the iterative solver sweep after sweep, and overlap removed
+/// by positional impulses. Islands with joints, drives or springs too stiff for the step are solved as usual.
 
 #include <tweenfall/physics/world.h>
 
 namespace tweenfall {
 
-/// How the contacts of an island are met.
+/// How the contacts of an island are solved.
 enum class ContactSolver : std::uint8_t {
   iterative,   ///< all contacts over and over (the default)
-  sequential,  ///< one after the other, each once, as if it were alone: stacks sink and tremble
-  shock,       ///< over and over, then from the ground up with all below held firm
-  /// All at once, as a linear complementarity problem: islands of up to 96 touching points by Lemke's pivots, larger
-  /// ones by projected Gauss-Seidel in 20,000 passes at most, or by pivots, too, where that takes many and there are up
-  /// to 1024 points. `complementarity_residual` (detail.h) tells how far off.
+  sequential,  ///< one after the other, each once, as if it were alone: stacks sink and jitter
+  shock,       ///< over and over, then from the ground up with everything below held fixed
+  /// All at once, as a linear complementarity problem: islands of up to 96 contact points by Lemke's pivots, larger
+  /// ones by projected Gauss-Seidel in at most 20,000 passes, or by pivots as well if that takes many passes and there
+  /// are up to 1024 points. `complementarity_residual` (detail.h) says how exact the solution is.
   lcp,
 };
 
-/// How overlap is taken apart.
+/// How overlapping bodies are pushed apart.
 enum class Parting : std::uint8_t {
-  soft,                ///< by contacts that give way, at `push_out_speed` at most (the default)
-  half,                ///< each of two by half of it
-  by_mass,             ///< the lighter by more, so that their center of mass stays
-  positional_impulse,  ///< as an impulse would at the point where they touch: they turn, too
-  closest_point,       ///< one of the two all of it, to the closest place where it touches from outside
+  soft,                ///< by soft contacts, at `push_out_speed` at most (the default)
+  half,                ///< each of the two by half of the depth
+  by_mass,             ///< the lighter one by more, so that their center of mass stays
+  positional_impulse,  ///< by an impulse on positions at the contact point: the bodies turn, too
+  closest_point,       ///< one of the two by all of it, to the closest place where it touches from outside
 };
 
 /// When bodies are found to meet.
 enum class Detection : std::uint8_t {
   ahead,     ///< at the start of the step, as far ahead as it goes (the default)
-  discrete,  ///< when they overlap at its end: what is fast and thin passes through
-  /// When they do: the world goes on to that instant, responds, and through the rest of the step. After 4096 instants
-  /// of one step, or 8 blows of two bodies at one instant, what still meets is solved together.
+  discrete,  ///< when they overlap at the end of the step: fast thin bodies pass through
+  /// At the instant when they meet: the world advances to it, responds, and continues through the rest of the step.
+  /// After 4096 instants in one step, or 8 collisions of two bodies at one instant, all that still meets is solved
+  /// together.
   time_of_impact,
 };
 
-/// How pairs are found that may meet. What is found never depends on it.
+/// How pairs that may meet are found. The pairs found are the same for all.
 enum class PairSearch : std::uint8_t {
-  tree,       ///< a tree of boxes with room to spare, kept from step to step (the default)
+  tree,       ///< a tree of enlarged boxes, kept from step to step (the default)
   all_pairs,  ///< every body with every other
-  sweep,      ///< in the order in which they begin along one axis
-  grid,       ///< in equal cubes of space; what would lie in more than 512 is held against all
-  quadtree,   ///< in squares cut into four where there is much in them
-  octree,     ///< in cubes cut into eight
-  kd_tree,    ///< in cells cut in two where half of the bodies are on either side
-  bvh,        ///< in boxes around boxes, made anew in each step
+  sweep,      ///< in the order in which the boxes begin along one axis
+  grid,       ///< in equal cubes of space; boxes that would lie in more than 512 are tested against all
+  quadtree,   ///< in squares, cut into four where there are many boxes
+  octree,     ///< in cubes, cut into eight
+  kd_tree,    ///< in cells, cut in two with half of the bodies on either side
+  bvh,        ///< in boxes around boxes, rebuilt in each step
 };
 
 }  // namespace tweenfall

@@ -4,7 +4,7 @@
 ///
 /// The world knows drives and targets, never clips or curves: whoever owns the animation tells
 /// a keyed body where it must be at the end of the step and with which twist, and the world
-/// takes it there exactly, pushing what stands in the way.
+/// takes it there exactly, pushing aside whatever stands in the way.
 
 #include <tweenfall/physics/contact.h>
 #include <tweenfall/physics/drive.h>
@@ -32,27 +32,27 @@ namespace soft {
 class Inside;
 }
 
-// Of these `strategies.h` tells the words; {} is the usual one.
+// `strategies.h` declares their values; {} is the default of each.
 enum class ContactSolver : std::uint8_t;
 enum class Parting : std::uint8_t;
 enum class Detection : std::uint8_t;
 enum class PairSearch : std::uint8_t;
 
-/// How a free body's state goes through a step in which nothing touches it. All but the first two ask for forces and
-/// torques (gravity, drag, springs, fields, damping) at states of their own choosing. Of these all but the last two
-/// know nothing that is implicit: what is damped or swings faster than their steps can follow grows, until `step`
-/// throws NotFinite. The last two take what is of any stiffness as it will be at the end of the step, by Newton's
-/// method. Contacts and joints work with the mean force that they find.
+/// How the state of a free body advances through a step in which nothing touches it. All but the first two evaluate
+/// forces and torques (gravity, drag, springs, fields, damping) at states of their own choosing. Of these, all but the
+/// last two are explicit: a damping or a swing too fast for their steps grows until `step` throws NotFinite. The last
+/// two are implicit: by Newton's method they take forces of any stiffness as they will be at the end of the step.
+/// Contacts and joints work with the mean force that the integrator finds.
 enum class Integrator {
   exact_quadratic,      ///< x += v h + a h^2/2: exact under constant force (the default); drag is of first order
   semi_implicit_euler,  ///< v += a h, then x += v h; first order
-  explicit_euler,       ///< on by what there was at the start; first order
-  midpoint,             ///< by what there is halfway; second order
-  trapezoid,            ///< by the mean of both ends, Heun's; second order
+  explicit_euler,       ///< forces at the start of the step; first order
+  midpoint,             ///< forces halfway through the step; second order
+  trapezoid,            ///< mean of the forces at both ends, Heun's method; second order
   rk4,                  ///< the classic Runge-Kutta method; fourth order
-  verlet,               ///< velocity Verlet: places by the speed halfway; second order, and a swing keeps its energy
-  backward_euler,       ///< on by what there will be at the end; first order, and a swing dies away
-  implicit_trapezoid,   ///< by the mean of the start and what will be at the end; second order, keeps a swing's energy
+  verlet,               ///< velocity Verlet: positions from the speed halfway; second order, a swing keeps its energy
+  backward_euler,       ///< forces at the end of the step; first order, and a swing dies away
+  implicit_trapezoid,   ///< mean of the forces at the start and at the end; second order, a swing keeps its energy
 };
 
 /// A plane through the world's origin in which all bodies lie and turn.
@@ -64,22 +64,22 @@ struct WorldSettings {
   int iterations = 20;          ///< passes of the contact solver over all contacts of a step
   double sleep_speed = 0.02;    ///< m/s (and rad/s times size) below which a body counts as still
   double sleep_after = 0.5;     ///< s of stillness after which a body sleeps; infinity: never
-  double push_out_speed = 0.5;  ///< greatest speed at which overlap is taken apart, m/s
-  ContactSolver solver{};       ///< how the contacts of an island are met
-  Parting separation{};         ///< how overlap is taken apart
+  double push_out_speed = 0.5;  ///< greatest speed at which overlapping bodies are pushed apart, m/s
+  ContactSolver solver{};       ///< how the contacts of an island are solved
+  Parting separation{};         ///< how overlapping bodies are pushed apart
   Detection collision{};        ///< when bodies are found to meet
-  PairSearch broad_phase{};     ///< how pairs are found that may meet
-  /// Where bodies meet as their sections do, by the solver of `planar_world.h`; nothing leaves the plane by a bit.
-  /// There `iterations`, `threads` and what of forces points out of it are not read, the strategies above must be the
-  /// usual ones, joints are balls, hinges, sliders, welds, distances, springs, and no surface moves, spins or is of
-  /// faces.
+  PairSearch broad_phase{};     ///< how pairs that may meet are found
+  /// When set, bodies collide as their sections in this plane, by the solver of `planar_world.h`, and not one bit
+  /// leaves the plane. Then `iterations`, `threads` and the parts of forces that point out of the plane are ignored,
+  /// the strategies above must be the defaults, joints may be ball, hinge, slider, weld, distance or spring joints, and
+  /// no surface may move, spin or be made of faces.
   WorldPlane plane{};
-  int threads = 0;  ///< that share a step, 0 to 256; 0 and 1: the one that calls. No bit depends on it
+  int threads = 0;  ///< threads that share a step, 0 to 256; 0 and 1: the calling thread alone. Never changes a bit
 };
 
-/// How two bodies' frictions, or restitutions, make one. Of two bodies that name different rules the one that comes
-/// later here holds: any that is named beats the usual one, and `maximum` all.
-/// Source of the order from `average` on: PhysX's PxCombineMode, of which the greater holds.
+/// How the frictions, or restitutions, of two bodies are combined. When two bodies name different rules, the one that
+/// is listed later here holds: any other rule beats `usual`, and `maximum` beats all.
+/// Source of the order from `average` on: PhysX's PxCombineMode, where the greater value holds too.
 enum class Combine : std::uint8_t {
   usual,           ///< frictions by their geometric mean, restitutions by the larger
   geometric_mean,  ///< sqrt(a b)
@@ -93,65 +93,65 @@ struct BodySettings {
   Shape shape = {};
   std::optional<double> mass{};                     ///< kg; absent: density times volume
   double density = 1000;                            ///< kg/m^3
-  std::optional<MassProperties> mass_properties{};  ///< instead of those that an even solid has; beside no `mass`
+  std::optional<MassProperties> mass_properties{};  ///< instead of those of an even solid; only without `mass`
   double friction = 0.5;   ///< Coulomb coefficient; a pair takes sqrt(f1 f2) unless told otherwise
   double restitution = 0;  ///< 0 to 1; a pair takes the larger unless told otherwise
   Combine friction_combine = Combine::usual;
   Combine restitution_combine = Combine::usual;
-  double rolling_friction = 0;  ///< resistance to turning, as a length: torque <= length times normal force, m
-  double spinning_friction =
-      0;                        ///< besides that, the torque about the normal alone, likewise; pairs take the larger, m
-  Twist surface_velocity = {};  ///< of the surface against the body, at its center of mass, node axes: a belt's
-  bool sensor = false;          ///< reports what overlaps it, and neither pushes nor is pushed
-  double linear_damping = 0;    ///< 1/s
-  double angular_damping = 0;   ///< 1/s
-  bool fixed = false;           ///< part of the scenery: never moves
-  std::uint64_t groups = 1;     ///< that it belongs to, one bit each
+  double rolling_friction = 0;   ///< resistance to rolling, as a length: torque <= length times normal force, m
+  double spinning_friction = 0;  ///< the same for the torque about the normal alone; a pair takes the larger, m
+  Twist surface_velocity = {};   ///< of the surface relative to the body, at its center of mass, node axes
+  bool sensor = false;           ///< reports what overlaps it, but neither pushes nor is pushed
+  double linear_damping = 0;     ///< 1/s
+  double angular_damping = 0;    ///< 1/s
+  bool fixed = false;            ///< part of the scenery: never moves
+  std::uint64_t groups = 1;      ///< the groups it belongs to, one bit each
   std::uint64_t collides_with =
-      ~std::uint64_t{0};  ///< groups; two bodies meet when each collides with one of the other's
+      ~std::uint64_t{0};  ///< groups; two bodies meet when each collides with a group of the other
   Drive drive = Drive::free();
   Motion motion = {};  ///< of the node's origin, world axes
 };
 
-/// A touching pair after a step; of compounds, a touching pair of parts.
+/// A touching pair after a step; for compounds, a touching pair of parts.
 struct Contact {
   BodyId a, b;
   Manifold manifold;
   double impulse = 0;           ///< sum of normal impulses of the step, N s; >= 0
   Vec3 total_impulse{0, 0, 0};  ///< on b, friction included, N s
-  double approach_speed = 0;    ///< normal speed at which they met, before the step's impulses, m/s
+  double approach_speed = 0;    ///< normal speed at which the two met, before the step's impulses, m/s
   bool began = false;           ///< the pair did not touch in the step before
   std::uint32_t part_a = 0,
-                part_b = 0;  ///< which part of a compound touches; at which place a mesh or field does, counted
+                part_b = 0;  ///< index of the touching part of a compound; of a mesh or field: of the contact place
 };
 
-/// Two bodies that touched and do not any more.
+/// Two bodies that touched before and no longer do.
 struct EndedContact {
   BodyId a, b;  ///< may have been removed
 };
 
-/// A body in a sensor. Never another sensor, nor a fixed body in a fixed sensor; and by groups and ignored pairs as for
-/// contacts.
+/// A body in a sensor. Sensors never report other sensors, and fixed sensors no fixed bodies; groups and ignored pairs
+/// count as they do for contacts.
 struct SensorOverlap {
   BodyId sensor, body;
-  bool began = false;  ///< was not in it at the end of the step before
+  bool began = false;  ///< the body was not in the sensor at the end of the step before
 };
 
-/// A body's place or velocity is no longer a number, or beyond 1e30 m, m/s or rad/s; or a force on it is not finite.
+/// Thrown when the position or velocity of a body is no longer a number, or exceeds 1e30 m, m/s or rad/s, or when a
+/// force on it is not finite.
 class NotFinite : public std::runtime_error {
  public:
   NotFinite(BodyId body, double time, const std::string& cause);
-  BodyId body;        ///< of the world that stepped; of a stage's own world where a stage throws
-  double time = 0;    ///< of the world, at the end of the step that went wrong, s
-  std::string cause;  ///< the likely one, in words that end a sentence
+  BodyId body;        ///< in the world that stepped; when a stage throws, in the stage's own world
+  double time = 0;    ///< world time at the end of the step that went wrong, s
+  std::string cause;  ///< the likely cause, in words that end a sentence
 
  protected:
-  /// The same fault, told in other words.
+  /// The same fault with another text.
   NotFinite(const NotFinite& fault, const std::string& text);
 };
 
-/// Bodies and what acts on them. A world that was moved from holds nothing: its `noexcept` members answer as for an
-/// empty world, all others throw std::logic_error, until another world is assigned to it.
+/// Bodies and what acts on them. After a world was moved from, its `noexcept` members answer as for an empty world, and
+/// all others throw std::logic_error, until another world is assigned to it.
 class World {
  public:
   explicit World(const WorldSettings& settings = {});
@@ -178,7 +178,7 @@ class World {
   [[nodiscard]] bool is_sensor(BodyId body) const;
   [[nodiscard]] double still_for(BodyId body) const;  ///< s of stillness so far
   [[nodiscard]] bool asleep(BodyId body) const;
-  /// Whether the drive of a driven body pulled with its greatest force or torque in the last step, and not enough.
+  /// Whether, in the last step, the drive of a driven body needed more than its greatest force or torque.
   [[nodiscard]] bool saturated(BodyId body) const;
   [[nodiscard]] Vec3 reaction(
       BodyId body) const;  ///< sum of contact impulses on a keyed or fixed body since it was added, N s
@@ -187,31 +187,31 @@ class World {
 
   // Changes; each wakes the body. All throw std::invalid_argument for a stale handle, for numbers that are not finite
   // or beyond 1e30, and for a quaternion that cannot be normalized; and std::logic_error when a field calls them.
-  /// Moves the body: pose and velocity of the node's origin. Contacts across the jump use this velocity, not the jump.
+  /// Moves the body: pose and velocity of the node's origin. Contacts use this velocity, not the speed of the jump.
   void set_motion(BodyId body, const Motion& motion);
-  /// Hands the body over. Leaving `keyed`, it keeps the pose and the twist of its last target; accumulated impulses are
-  /// cleared.
+  /// Hands the body over to another drive. A body that leaves `keyed` keeps the pose and twist of its last target;
+  /// accumulated impulses are cleared.
   void set_drive(BodyId body, const Drive& drive);
-  /// Where a keyed body shall be at the end of the next step, and its path's own velocity there.
+  /// Where a keyed body must be at the end of the next step, and the velocity of its path there.
   void set_target(BodyId body, const Motion& end_of_step);
   void apply_force(BodyId body, const Vec3& force, const Vec3& point);  ///< N, at a world point, during the next step
   void apply_torque(BodyId body, const Vec3& torque);                   ///< N m, during the next step
   void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point);  ///< N s, at once
   void wake(BodyId body);
 
-  /// How the body's surface moves against it, at its center of mass in its node's axes: friction takes along what lies
-  /// on it. Wakes what touches it.
+  /// How the body's surface moves relative to the body, at its center of mass in the axes of its node: friction carries
+  /// along what lies on it. Wakes what touches it.
   void set_surface_velocity(BodyId body, const Twist& velocity);
   [[nodiscard]] Twist surface_velocity(BodyId body) const;
 
-  // Which bodies meet. A change wakes whom it concerns, at once and with no impulse; where bodies that now meet lie in
-  // each other they are taken apart as any overlap is. All throw std::invalid_argument for a stale handle.
+  // Which bodies meet. A change wakes the bodies concerned, at once and with no impulse; if they overlap and now meet,
+  // they are pushed apart as any overlapping bodies are. All throw std::invalid_argument for a stale handle.
   void set_groups(BodyId body, std::uint64_t groups, std::uint64_t collides_with);
   [[nodiscard]] std::uint64_t groups(BodyId body) const;
   [[nodiscard]] std::uint64_t collides_with(BodyId body) const;
   void ignore(BodyId a, BodyId b);   ///< they pass through each other. @throws std::invalid_argument for the same body
-  void collide(BodyId a, BodyId b);  ///< takes back `ignore`
-  /// Whether they may meet: two bodies, neither a sensor, that no groups, no joint and no call of `ignore` keep apart.
+  void collide(BodyId a, BodyId b);  ///< undoes `ignore`
+  /// Whether two bodies may meet: neither is a sensor, and no groups, joint or call of `ignore` keep them apart.
   [[nodiscard]] bool collides(BodyId a, BodyId b) const;
 
   // Joints; all throw std::invalid_argument for a stale handle. Removing a body removes its joints
@@ -221,23 +221,23 @@ class World {
   [[nodiscard]] bool contains(JointId joint) const noexcept;
   [[nodiscard]] std::vector<JointId> joints() const;
   [[nodiscard]] const JointSettings& joint(JointId joint) const;
-  /// Other limits, motors and so on for a joint of the same kind; wakes both ends.
+  /// Gives a joint other limits, motors and so on, of the same kind of joint; wakes both ends.
   void set_joint(JointId joint, const JointKind& kind);
   [[nodiscard]] JointReading reading(JointId joint) const;
-  /// Those that broke in the last step, in order; they are gone.
+  /// Joints that broke in the last step, in order; they no longer exist.
   [[nodiscard]] std::span<const JointId> broken_joints() const noexcept;
 
   // Forces
-  /// @returns a number for the calls below
+  /// @returns a number that identifies the force in the calls below
   /// @throws std::invalid_argument naming what is wrong
   std::size_t add_force(Force force, ForceSettings settings = {});
-  // All throw std::invalid_argument for a number that is none
+  // All throw std::invalid_argument for a number that identifies no force
   void remove_force(std::size_t number);
   void set_strength(std::size_t force, const Strength& strength);
-  /// Energy of a force's free bodies in it, at the present strength, J: of springs, attractors, potentials, steady
-  /// pushes, and of buoyancy where gravity is square to the surface. None for what has none.
+  /// Potential energy of the free bodies in one force, at its present strength, J: for springs, attractors, potentials,
+  /// steady pushes, and for buoyancy where gravity is perpendicular to the surface. Empty for all other forces.
   [[nodiscard]] std::optional<double> potential_energy(std::size_t force) const;
-  /// The sum of those that have one, and of gravity, which is 0 at the origin, J.
+  /// The sum over the forces that have one, plus that of gravity, which is 0 at the origin, J.
   [[nodiscard]] double potential_energy() const;
 
   // Time
@@ -247,32 +247,33 @@ class World {
   /// `set_motion`. When a spring or a field is the cause, nothing has moved yet.
   /// @throws what a field throws; nothing has moved then
   void step(double dt);
-  /// The same for a part of a step that is `whole` seconds long: contacts give way as in the whole step, so that what
-  /// rests stays where it is however a step is split. @throws std::invalid_argument for a whole that is no number
+  /// The same for a part of a step that is `whole` seconds long: contacts are as soft as in the whole step, so that
+  /// resting bodies stay where they are however a step is split. @throws std::invalid_argument unless `whole` is finite
   void step(double dt, double whole);
-  /// Who does the parts of a step, in place of the threads of the settings; null for the thread that calls. Copies
-  /// share it, as they share the threads of the settings. Fields are called by the calling thread alone.
+  /// Sets who does the parts of a step, in place of the threads of the settings; null: the calling thread. Copies of
+  /// the world share it, as they share the threads of the settings. Only the calling thread calls fields.
   void set_executor(std::shared_ptr<Executor> executor);
 
   /// Pairs that touched in the last step, in a fixed order.
   [[nodiscard]] std::span<const Contact> contacts() const noexcept;
-  /// Pairs that touched before the last step and not in it, or of which a body was removed before it. A contact that is
-  /// among `contacts` and did not begin has persisted.
+  /// Pairs that touched before the last step and not in it, or that lost a body before it. A contact that is among
+  /// `contacts` and did not begin has persisted.
   [[nodiscard]] std::span<const EndedContact> ended_contacts() const noexcept;
-  /// What was in sensors at the end of the last step, awake or asleep, by index of the sensor and then of the body.
+  /// Bodies that were in sensors at the end of the last step, awake or asleep, by index of the sensor and then of the
+  /// body.
   [[nodiscard]] std::span<const SensorOverlap> sensor_overlaps() const noexcept;
-  /// What was in them one step before and was not then, or was removed.
+  /// Bodies that were in sensors one step earlier and were not any more, or were removed.
   [[nodiscard]] std::span<const SensorOverlap> ended_sensor_overlaps() const noexcept;
 
-  // Keeping it
-  /// A number that changes when any bit does of what the world is: of all that tells on its next steps.
+  // Saving
+  /// A number that changes when any bit of the world changes that affects its next steps.
   [[nodiscard]] std::uint64_t state_hash() const noexcept;
-  /// The world as bytes, from which `load` makes it again, with the same handles: it then steps to the same bits.
-  /// @throws std::invalid_argument when the world has a `Field`, for a function cannot be saved: take it away with
+  /// The world as bytes, from which `load` restores it, with the same handles: it then steps to the same bits.
+  /// @throws std::invalid_argument when the world has a `Field`, since a function cannot be saved: remove it with
   /// `remove_force` and add it again after loading; or when a body is not finite
   [[nodiscard]] std::vector<std::byte> save() const;
   /// Becomes the world that was saved.
-  /// @throws std::invalid_argument telling what is wrong with the bytes; nothing has changed then
+  /// @throws std::invalid_argument saying what is wrong with the bytes; nothing has changed then
   void load(std::span<const std::byte> saved);
 
  private:

@@ -2,9 +2,9 @@
 
 /// The path of one body: where its animation wants it, at any time, with exact twist.
 ///
-///     world(t) = anchor * clip(clock(t)), plus the offset that still settles.
+/// world(t) = anchor * clip(clock(t)), plus the offset that is still settling.
 ///
-/// A path has no history: it can be asked for any time in any order.
+/// A path has no history: it can be evaluated at any time in any order.
 
 #include <tweenfall/anim/animation.h>
 #include <tweenfall/physics/handoff/rule.h>
@@ -27,8 +27,8 @@ class Path {
   Path(const Path&) = default;
   Path& operator=(const Path&) = default;
 
-  /// @param since  when the body came to this path, s: nothing of it was shown before, so there even `Side::in` is what
-  /// leaves
+  /// @param since  when the body came to this path, s: nothing of the path was shown before, so at that time `Side::in`
+  /// equals `Side::out`
   Path(std::shared_ptr<const Animation> animation, std::size_t node, double since = 0);
 
   /// Pose and twist of the node's origin in the world.
@@ -37,10 +37,10 @@ class Path {
   /// The same with scale and shear.
   [[nodiscard]] WorldMotion world(double stage_time, Side side = Side::out) const noexcept;
 
-  /// The path that takes up from `body` at `time`: clock and anchor as `settings` say, the difference settling.
+  /// The path that continues from `body` at `time`: clock and anchor as `settings` say, while the difference settles.
   ///
   /// @param body         motion of the node's origin
-  /// @param released_at  when the body left its path, s; the clock holds from there for `Clock::hold`
+  /// @param released_at  when the body left its path, s; `Clock::hold` holds the clock from there
   /// @throws std::invalid_argument when `settings.clip` names no clip.
   [[nodiscard]] Path recovered(double time, const HandBack& settings, const Motion& body, double released_at) const;
 
@@ -50,12 +50,12 @@ class Path {
   /// The clock by which the animation runs for this body; the stage's own unless a hand-back has changed it.
   [[nodiscard]] const ClockOverride& clock() const noexcept { return clock_; }
 
-  /// On which side of `stage_time` the path is where `side` is asked for.
+  /// The side of `stage_time` that is used when `side` is asked for.
   [[nodiscard]] Side side_at(double stage_time, Side side) const noexcept {
     return stage_time <= since_ ? Side::out : side;
   }
 
-  /// The same two, given the node's world motion in the animation's whole pose of that time by `clock()`, on `side_at`.
+  /// The same two, given the node's world motion in the animation's whole pose at that time by `clock()`, on `side_at`.
   [[nodiscard]] Motion at(double stage_time, const WorldMotion& authored) const noexcept;
   [[nodiscard]] WorldMotion world(double stage_time, const WorldMotion& authored) const noexcept;
 
@@ -71,7 +71,7 @@ class Path {
   std::size_t node_;
   double since_;
   ClockOverride clock_;
-  std::optional<Pose> anchor_;  ///< rigid; none: where it was authored
+  std::optional<Pose> anchor_;  ///< rigid; absent: where it was authored
   SettleOffset settle_;
 };
 

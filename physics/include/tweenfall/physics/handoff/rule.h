@@ -1,9 +1,9 @@
 #pragma once
 
-/// Rules of the hand-off: when a body changes owner, to whom, and how.
+/// Rules of the hand-off: when a body changes owner, to which one, and how.
 ///
-/// A rule lives while the body's owner differs from its `to`. Its trigger acts at an exact time:
-/// the step in which it falls is split there.
+/// A rule is active while the body's owner differs from its `to`. Its trigger acts at an exact time:
+/// the step that contains it is split there.
 
 #include <tweenfall/physics/drive.h>
 
@@ -39,51 +39,51 @@ struct Asleep {
 };
 struct Enter {
   std::string region;  ///< name or pattern of a node whose body is a sensor
-  std::string who;     ///< name or pattern of what comes in; empty: the rule's own body
+  std::string who;     ///< name or pattern of what enters; empty: the rule's own body
 };
 struct Leave {
-  std::string region;  ///< the same, for what goes out
+  std::string region;  ///< the same, for what leaves
   std::string who;
 };
 struct Saturated {
-  double seconds = 0;  ///< for which the drive of a driven body has been at its greatest force or torque, s
+  double seconds = 0;  ///< how long the drive of a driven body has been at its greatest force or torque, s
 };
 struct Error {
   double distance = 0;  ///< of a driven body's node from its path, m
 };
 struct SpeedPeak {
-};  ///< the center of mass of a body that is led is on its path as fast as it gets before it slows down
+};  ///< the speed at which the center of mass of a keyed or driven body follows its path has a local maximum
 }  // namespace when
 
 struct When;
 using Trigger = std::variant<when::At, when::Marker, when::Event, when::ClipEnd, when::ContactHit, when::Asleep,
                              when::Enter, when::Leave, when::Saturated, when::Error, when::SpeedPeak>;
 
-/// Any of the triggers, or, with `all`, every one: instants latch, conditions must hold. What is known only when a step
-/// is over (sensors, saturation, the error) acts at its end.
+/// Any of the triggers, or, with `all`, every one: instants latch, conditions must hold. What is known only after a
+/// step (sensors, saturation, the error) acts at its end.
 struct When {
   std::vector<Trigger> triggers;
   bool all = false;
 };
 
-/// What velocity a released body starts with.
+/// The velocity a released body starts with.
 struct TakeOver {
   enum class Velocity { curve, step, zero, average };
-  /// The curve's own derivative, from the side that was shown. What a drive lets go has a velocity of its own in place
-  /// of the curve's.
+  /// `curve`: the curve's own derivative, from the side that was shown. A body that its drive lets go has a velocity of
+  /// its own, which is used instead.
   Velocity velocity = Velocity::curve;
   double average_over = 0.1;  ///< s, for `average`
-  double scale = 1;           ///< multiplies it
-  Twist add = {};             ///< added after
-  /// What becomes of a body that lies in others when it leaves its path.
+  double scale = 1;           ///< multiplies the velocity
+  Twist add = {};             ///< added after that
+  /// What happens to a body that overlaps others when it leaves its path.
   enum class Overlap {
-    push,    ///< it is taken out of them, at no more than the world's `push_out_speed`, and gains no energy by it
-    ignore,  ///< it passes through those until they are apart
-    rewind,  ///< it leaves from where its path was last clear of them as they stand, with the velocity there
-    veto,    ///< it stays, and an event "vetoed" tells so; a rule tries again after each step
+    push,    ///< it is pushed out at no more than the world's `push_out_speed`, and gains no energy by it
+    ignore,  ///< it passes through them until they are apart
+    rewind,  ///< it leaves from where its path was last clear of them, as they are now, with its velocity there
+    veto,    ///< it stays, with an event "vetoed"; a rule tries again after each step
   };
   Overlap overlap = Overlap::push;
-  double rewind_within = 1;  ///< s; where its path was not clear for so long, it is pushed
+  double rewind_within = 1;  ///< s; if its path was not clear for that long, it is pushed
 };
 
 /// How the difference to the path dies away after a hand-back.
@@ -93,9 +93,9 @@ struct Settle {
   double seconds = 0.3;  ///< duration, or half-life
 };
 
-/// Where a recovered body's path takes up again.
+/// Where the path of a recovered body continues.
 struct HandBack {
-  std::string clip;  ///< empty: the plays that were there
+  std::string clip;  ///< empty: the plays as they are
   enum class Clock { run, hold, restart };
   Clock clock = Clock::run;  ///< run: as if never released; hold: paused at the release; restart: from the clip's start
   enum class Anchor { keep, here, ground };
@@ -109,15 +109,15 @@ struct OwnerChange {
   Drive to = Drive::free();
   TakeOver take_over = {};
   HandBack hand_back = {};
-  /// How long the drive takes to get there, s: its frequency even in the logarithm between 0.01 Hz and 1000 Hz, where
-  /// the ends are free and keyed; limits and damping even. What has none of its own, because it is free or keyed, has
-  /// the other's. On its way the body is driven.
+  /// How long the drive takes to get there, s. Its frequency changes evenly in the logarithm between 0.01 Hz and 1000
+  /// Hz, which stand for free and keyed; limits and damping change evenly. A drive without limits and damping of its
+  /// own, free or keyed, takes those of the other. During the ramp the body is driven.
   double ramp = 0;
 };
 
 /// A change that comes some time after the one before it.
 struct NextChange {
-  double after = 0;  ///< s, from when that began
+  double after = 0;  ///< s, after the start of the one before
   OwnerChange change = {};
 };
 
@@ -148,8 +148,8 @@ enum class Cause {
   saturated,
   error,
   speed_peak,
-  then,  ///< a change that a rule has come after another
-  ramp,  ///< the end of the ramp on which the body's drive was
+  then,  ///< a later change of a rule, from its `then`
+  ramp,  ///< the end of the ramp of the body's drive
   caller
 };
 

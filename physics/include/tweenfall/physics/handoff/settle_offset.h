@@ -3,7 +3,7 @@
 /// The bridge from where a body is to where its path wants it.
 ///
 /// At the hand-back, the difference in pose and twist is kept as an offset that dies away as
-/// `Settle` says. It is a part of the path and not a state of the body, so that colliders follow it, and pose and
+/// `Settle` says. It is part of the path and not a state of the body, so that colliders follow it, and pose and
 /// velocity are continuous at its start and, for the quintic and the dead blend, at its end.
 
 #include <tweenfall/curves/pose.h>
@@ -25,7 +25,7 @@ class SettleOffset {
   /// Starts at `time` with exactly `body`, while the path is at `path`; both of the node's origin, world axes.
   SettleOffset(const Settle& settle, double time, const Motion& path, const Motion& body);
 
-  /// `path`, which is the path's motion at `time`, with the offset of that time applied.
+  /// `path`, the path's motion at `time`, with the offset at that time applied.
   [[nodiscard]] Motion apply(double time, const Motion& path) const noexcept;
 
  private:
@@ -39,7 +39,7 @@ class SettleOffset {
   struct Extrapolated {
     double value = 0, rate = 0;
   };
-  std::array<Extrapolated, 3> extrapolated_{};  ///< of the dead blend: the parts of the rotation vector
+  std::array<Extrapolated, 3> extrapolated_{};  ///< for the dead blend: the parts of the rotation vector
 };
 
 }  // namespace tweenfall

@@ -8,11 +8,11 @@
 
 namespace tweenfall {
 
-/// Fits bones to all skinned meshes of a stage and gives their nodes bodies, and joints named as the nodes that move.
-/// Bodies are keyed where a playing clip moves them, else free. The bones of a figure pass through each other and meet
-/// all else: they get a group of their own, of which 64 bits hold no more than are free, or the one that `body` says.
+/// Fits bones to all skinned meshes of a stage, and gives their nodes bodies, and joints named after the moving nodes.
+/// Bodies that a playing clip moves are keyed, others free. The bones of a figure pass through each other and collide
+/// with everything else: they get the group that `body` names, or else one of the 64 that nothing on the stage uses.
 /// A node that has a body keeps it.
-/// @param group  the name by which rules call all of its nodes; `drive` of `body` is not read
+/// @param group  the name by which rules refer to all of its nodes; `drive` of `body` is ignored
 /// @param meshes  name or pattern of the nodes that show the meshes of the figure
 /// @returns the bones
 /// @throws std::invalid_argument as `fit_ragdoll`, for a stage without a skinned mesh, or when no group is free

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The same of a stage, by nodes, as its last step before or at `Stage::time` left it.
+/// The details of `detail.h` for a stage, by nodes, as left by its last step before or at `Stage::time`.
 
 #include <tweenfall/physics/detail.h>
 #include <tweenfall/physics/stage/stage.h>
@@ -11,7 +11,7 @@ namespace tweenfall {
 
 struct NodeDetail {
   NodeId node = no_node;
-  NodeId island = no_node;  ///< the first node of those whose bodies are solved together; `no_node` as in `BodyDetail`
+  NodeId island = no_node;  ///< first of the nodes whose bodies are solved together; `no_node` as in `BodyDetail`
   bool asleep = false;
   Bounds box{Vec3(0, 0, 0), Vec3(0, 0, 0)};
 };

@@ -13,18 +13,18 @@
 
 namespace tweenfall {
 
-/// What a driver holds of a vehicle's script, from when it is told until it is told otherwise; what is absent stays
-/// with who held it before: the driver, or the script.
+/// What a driver takes over from the script of a vehicle, until a later control changes it. An absent value stays with
+/// whoever held it before: the driver, or the script.
 struct VehicleControl {
-  std::optional<double> throttle{};  ///< -1 to 1; what is beyond counts as these
+  std::optional<double> throttle{};  ///< -1 to 1; values beyond are clamped
   std::optional<double> brake{};     ///< 0 to 1
   std::optional<double> steer{};     ///< -1 to 1, to the left
 };
 
 namespace input {
-/// A play is asked for something.
+/// Asks a play for something.
 struct Ask {
-  std::string play;  ///< its name, else that of its clip
+  std::string play;  ///< name of the play, or else of its clip
   PlayAction action;
 };
 struct Release {
@@ -35,7 +35,7 @@ struct Recover {
   std::string body;
   HandBack settings = {};
 };
-/// A body gets any owner, at once or along a ramp.
+/// Gives a body to any owner, at once or along a ramp.
 struct HandOver {
   std::string body;
   OwnerChange change = {};
@@ -45,18 +45,18 @@ struct Push {
   Vec3 impulse{0, 0, 0};  ///< N s
   Vec3 point{0, 0, 0};    ///< world, m
 };
-/// A parameter of a graph is set.
+/// Sets a parameter of a graph.
 struct Set {
   std::string graph;
   std::string parameter;
-  double value = 0;  ///< of a flag: 0 or 1
+  double value = 0;  ///< for a flag: 0 or 1
 };
-/// An event is sent to a graph.
+/// Sends an event to a graph.
 struct Send {
   std::string graph;
   std::string event;
 };
-/// A vehicle is driven from outside.
+/// Drives a vehicle from outside.
 struct Control {
   std::string vehicle;
   VehicleControl control = {};

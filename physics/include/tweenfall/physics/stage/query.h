@@ -1,7 +1,7 @@
 #pragma once
 
-/// Questions about where the bodies of a stage are at its present instant, between two steps too: on their paths
-/// exactly, and as `Stage::world` shows them.
+/// Questions about where the bodies of a stage are at its present instant, also between two steps: exactly on their
+/// paths, and as `Stage::world` shows them.
 
 #include <tweenfall/physics/query.h>
 #include <tweenfall/physics/stage/stage.h>
@@ -22,8 +22,8 @@ struct NearestNode {
   Vec3 point{0, 0, 0};  ///< of the node's body, world
 };
 
-// As for a world, by order of bodies where distances are equal. All throw std::logic_error for a stage that was moved
-// from.
+// As for a world; at equal distances, in the order of the bodies. All throw std::logic_error for a stage that was
+// moved from.
 [[nodiscard]] std::optional<NodeRayHit> cast_ray(const Stage& stage, const Vec3& from, const Vec3& direction,
                                                  double length = std::numeric_limits<double>::infinity(),
                                                  const NodeFilter& filter = {});

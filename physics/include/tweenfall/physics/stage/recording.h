@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a stage showed, frame by frame: the one thing that all pictures and files are made from.
+/// What a stage showed, frame by frame: the one source of all pictures and files.
 
 #include <tweenfall/physics/stage/detail.h>
 #include <tweenfall/physics/stage/stage.h>
@@ -26,27 +26,27 @@ struct NodeRecord {
 struct JointRecord {
   std::string name;
   NodeId a = no_node, b = no_node;                   ///< `no_node`: the world
-  std::vector<std::optional<JointReading>> reading;  ///< one per frame; nothing before it came and once it is gone
+  std::vector<std::optional<JointReading>> reading;  ///< one per frame; empty before the joint exists and after it
 };
 
-/// A graph through all frames: what was put in, and what it passed through.
+/// A graph through all frames: its parameters, and the states it passed through.
 struct GraphRecord {
   struct Parameter {
     std::string name;
-    std::vector<double> value;  ///< as poses see it; one per frame
+    std::vector<double> value;  ///< as the poses see it; one per frame
   };
   struct Passage {
     double time;
     std::size_t state;
-    std::string how;  ///< "fade 0.2 s", when "speed > 0.1"; empty for where it starts
+    std::string how;  ///< such as "fade 0.2 s", with "speed > 0.1" as `when`; empty for the state it starts in
     std::string when;
   };
   struct Machine {
     std::string name;
     std::vector<std::string> states;
     std::vector<Passage> passages;  ///< in order of time
-    std::vector<double> weight;     ///< of each state in turn, frame by frame; together 1
-    std::vector<char> is_settling;  ///< one per frame: a difference to what was before still dies away
+    std::vector<double> weight;     ///< of each state in turn, frame by frame; the weights of a frame sum to 1
+    std::vector<char> is_settling;  ///< one per frame: whether a difference to the pose before is still dying away
   };
   std::string name;
   std::vector<Parameter> parameters;
@@ -57,7 +57,7 @@ struct GraphRecord {
 struct SoftRecord {
   std::string name;
   std::vector<std::vector<Vec3>> positions;  ///< of its nodes, world, m; one list per frame
-  std::vector<std::size_t> torn_at;          ///< by edge: the first frame in which it is torn; times.size() for never
+  std::vector<std::size_t> torn_at;          ///< by edge: the first frame that shows it torn; times.size() for never
 };
 
 /// One vehicle of the stage's description through all frames.
@@ -88,7 +88,7 @@ struct Recording {
   std::string name;
   std::vector<double> times;  ///< s
   std::vector<NodeRecord> nodes;
-  std::vector<JointRecord> joints;         ///< in the description's order, then those that were added, as they came
+  std::vector<JointRecord> joints;         ///< in the description's order, then the added ones in theirs
   std::vector<GraphRecord> graphs;         ///< in the description's order
   std::vector<SoftRecord> softs;           ///< in the description's order
   std::vector<VehicleRecord> vehicles;     ///< likewise
@@ -101,27 +101,27 @@ struct Recording {
   std::vector<StageDetail> details;  ///< one per frame where they were asked for and there is room, or empty
 };
 
-/// Runs `stage` from its current time to `until`, taking a frame at the start and every 1/fps after, and at `until`.
-/// @param details  whether contacts, islands, boxes and sleep are recorded too; what they take beyond `most_bytes`,
-/// or 256 MiB, leaves them all out
+/// Runs `stage` from its current time to `until`, taking a frame at the start, every 1/fps after it, and at `until`.
+/// @param details  whether contacts, islands, boxes and sleep are recorded too; if they take more than `most_bytes`,
+/// or 256 MiB, all of them are left out
 /// @throws std::invalid_argument, saying how much it would be, for more than 20 million steps or `most_bytes` of
 /// frames,
-///         and once it has a million events; NodeNotFinite, as the stage
+///         and as soon as there are a million events; NodeNotFinite, as the stage does
 [[nodiscard]] Recording record(Stage& stage, double until, double fps, double most_bytes = 1024.0 * 1024 * 1024,
                                bool details = false);
 
 /// The same while inputs are given, each at its time. @param inputs  in order of time
-/// @throws std::invalid_argument for an input that is behind the stage's time or the one before it, and as the stage
+/// @throws std::invalid_argument for an input earlier than the stage's time or than the input before it, and as `give`
 [[nodiscard]] Recording record(Stage& stage, double until, double fps, double most_bytes, bool details,
                                std::span<const TimedInput> inputs);
 
-/// Advances a stage to `until`, giving it the inputs that are due by then. @return those that are still to come
+/// Advances a stage to `until`, giving it the inputs that are due by then. @return the inputs that are still to come
 /// @throws as `record`
 std::span<const TimedInput> advance_with(Stage& stage, std::span<const TimedInput> inputs, double until);
 
-/// A time at which the stage has shown what it has: the end of its plays or its last timed hand-off, and a while for
-/// bodies to come to rest; 4 s of what has no end or
-/// lasts longer than an hour, 600 s at most. Plays of clips that do not exist do not count.
+/// A time by which the stage has shown everything: the end of its plays or its last timed hand-off, plus a while for
+/// bodies to come to rest; it counts 4 s for anything that has no end or
+/// lasts longer than an hour, and is 600 s at most. Plays of clips that do not exist do not count.
 [[nodiscard]] double natural_length(const StageDescription& description);
 
 }  // namespace tweenfall

@@ -3,12 +3,12 @@
 /// The stage: clips bound to nodes, bodies in a world, hand-offs armed; one timeline for all.
 ///
 /// `advance` takes any frame time. Inside, physics runs in fixed steps that are split at the exact
-/// times of triggers; what is read between two steps is interpolated by Hermite cubics of the bodies'
-/// own positions and velocities, and is exact for keyed nodes. `seek` goes to any time, forward or
-/// back, with the same bits as running there from the start.
+/// times of triggers; between two steps, values are interpolated by Hermite cubics of the bodies'
+/// own positions and velocities, and are exact for keyed nodes. `seek` goes to any time, forward or
+/// back, with the same bits as a run from the start.
 ///
-/// How a keyed body becomes a free one: at the trigger's instant t the step is split, the body's
-/// pose and twist are its path's at t (from the side that was shown), told about its center of mass, and
+/// How a keyed body becomes free: at the trigger's instant t the step is split, the body takes the
+/// pose and twist of its path at t (from the side that was shown), expressed at its center of mass, and
 /// from there the world moves it.
 
 #include <tweenfall/physics/handoff/path.h>
@@ -34,24 +34,24 @@ class InsideStage;
 
 using NodeId = std::size_t;
 
-/// An event of a clip, a contact that began, what came into a sensor or left it, the end of a joint, what physics
-/// cannot hold, or what a step is too short for, as `on_event` and recordings see it.
+/// An event of a clip, the start of a contact, a body that entered or left a sensor, the end of a joint, something that
+/// physics cannot hold or for which a step is too short, as `on_event` and recordings see it.
 struct StageEvent {
-  double time = 0;  ///< stage time, s; of a contact when the two met: told once it is known what it took
-  /// The clip event's name, or one of these: "contact"; "entered" and "left"; "joint_broke", and "joint_ended" as its
-  /// `until` says; "overlap" of two bodies that lie deep in each other, and "joint_strained" of a joint that is open,
-  /// beyond a limit or short of its motor's speed, for a twentieth of a second; "vetoed" of a body that lies in
-  /// another and therefore stays on its path, as its rule says; "split limit" of a step with more instants than may
-  /// split it; "unpinned" of a pin that lets go, and "torn" of an edge of a soft body.
+  double time = 0;  ///< stage time, s; for a contact, when the two met: it is reported once its impulse is known
+  /// The clip event's name, or one of these: "contact"; "entered" and "left"; "joint_broke", and "joint_ended" when its
+  /// `until` ends it; "overlap" of two bodies that overlap deeply, and "joint_strained" of a joint that for a twentieth
+  /// of a second is open, beyond a limit or short of its motor's speed; "vetoed" of a body that overlaps another and
+  /// therefore stays on its path, as its rule says; "split limit" of a step with more instants than may split it;
+  /// "unpinned" of a pin that lets go, and "torn" of an edge of a soft body.
   std::string name;
-  std::string data;  ///< JSON text: given with a clip event; {"depth": m}, of a joint {"gap": m}, {"beyond_limit": m or
-                     ///< rad} or {"missing_speed": m/s or rad/s}, {"splits": count}, {"node": of the soft body},
+  std::string data;  ///< JSON text: what a clip event carries; {"depth": m}; of a joint {"gap": m}, {"beyond_limit": m
+                     ///< or rad} or {"missing_speed": m/s or rad/s}; {"splits": count}; {"node": of the soft body};
                      ///< {"edge": of the soft body, "at": [where, m]}; else empty
-  std::vector<NodeId> nodes;  ///< of a contact, an overlap or a veto: the two; of a sensor: it and the body; of a
+  std::vector<NodeId> nodes;  ///< of a contact, an overlap or a veto: both; of a sensor: the sensor and the body; of a
                               ///< joint: its bodies
   double impulse = 0;         ///< of a contact: N s
-  std::string joint = {};     ///< of a joint its name; of a pin that lets go, or what is torn, that of its soft body
-  EventKind kind = EventKind::moment;  ///< of a clip's interval `begin` or `end`
+  std::string joint = {};     ///< name of a joint; of a pin that lets go or an edge that tears: of the soft body
+  EventKind kind = EventKind::moment;  ///< `begin` or `end` for an interval of a clip
 };
 
 /// A joint that the stage has or had, and the nodes whose bodies it holds; `no_node`: the world.
@@ -64,7 +64,7 @@ struct JointEnds {
 struct SoftNodes {
   std::vector<Vec3> positions;   ///< world, m
   std::vector<Vec3> velocities;  ///< m/s
-  std::vector<char> torn;        ///< by edge of its description: 1 once it is
+  std::vector<char> torn;        ///< by edge of its description: 1 once the edge is torn
 };
 
 /// A wheel of a vehicle as a stage shows it.
@@ -77,25 +77,25 @@ struct StageWheel {
 struct StageParticles {
   std::vector<Vec3> positions;         ///< world, m
   std::vector<Vec3> velocities;        ///< m/s
-  std::vector<std::uint64_t> numbers;  ///< by which each is known for its whole life
+  std::vector<std::uint64_t> numbers;  ///< identify each particle for its whole life
 };
 
 /// Energies of a stage's bodies, J.
 struct StageEnergy {
   double kinetic = 0;                         ///< of all free bodies
   double weight = 0;                          ///< against gravity, 0 at the origin
-  std::vector<std::optional<double>> forces;  ///< of each force of the description that has one
+  std::vector<std::optional<double>> forces;  ///< for each force of the description, if it has a potential energy
 };
 
-/// A rule that waited for one of its bodies in vain.
+/// A rule that never fired for one of its bodies.
 struct UnfiredRule {
   std::size_t rule = 0;  ///< in the order in which rules were given
   std::size_t node = 0;
-  std::string reason;  ///< what is known of each trigger, in words
+  std::string reason;  ///< what is known about each trigger, in words
 };
 
-/// A node whose body's place or velocity is no longer a number, or beyond what a world bears; `what()` names the node,
-/// the time and the likely cause.
+/// Thrown when the position or velocity of a node's body is no longer a number or exceeds what a world can hold;
+/// `what()` names the node, the time and the likely cause.
 class NodeNotFinite : public NotFinite {
  public:
   NodeNotFinite(NodeId node, const std::string& name, const NotFinite& fault);
@@ -104,7 +104,7 @@ class NodeNotFinite : public NotFinite {
 
 class Stage {
  public:
-  /// @throws std::invalid_argument listing everything that does not fit together.
+  /// @throws std::invalid_argument listing everything that does not fit together
   explicit Stage(StageDescription description);
   ~Stage();
   Stage(Stage&&) noexcept;
@@ -112,9 +112,9 @@ class Stage {
 
   // Time
   // All three throw std::invalid_argument when a call would take more than 20 million steps, and NodeNotFinite when the
-  // motion of a body is no longer finite; the stage then stands before that step, and throws again when it goes on.
+  // motion of a body is no longer finite; the stage then stays before that step, and throws again when it goes on.
   void advance(double dt);       ///< @throws std::invalid_argument when dt is negative or not finite
-  void advance_to(double time);  ///< to exactly `time`. @throws std::invalid_argument when that lies behind
+  void advance_to(double time);  ///< to exactly `time`. @throws std::invalid_argument when that is in the past
   void seek(double time);        ///< any time >= 0; calls no callbacks
   [[nodiscard]] double time() const noexcept;
   [[nodiscard]] double step() const noexcept;
@@ -126,96 +126,98 @@ class Stage {
   [[nodiscard]] bool has_body(NodeId node) const noexcept;
   [[nodiscard]] WorldMotion world(NodeId node) const;  ///< of the node's origin
   void world(std::span<WorldMotion> out) const;        ///< of all nodes, in order
-  [[nodiscard]] Twist twist(NodeId node) const;  ///< at the center of mass for a body, else at the origin; world axes
+  [[nodiscard]] Twist twist(NodeId node) const;  ///< of a body at its center of mass, else at the origin; world axes
   [[nodiscard]] Owner owner(NodeId node) const;  ///< a node without a body is keyed
-  [[nodiscard]] Drive drive(NodeId node) const;  ///< what holds its body to its path, on a ramp as it is right now
+  [[nodiscard]] Drive drive(NodeId node) const;  ///< what holds its body to its path; on a ramp, its present value
   [[nodiscard]] NodeLook look(NodeId node) const;
   [[nodiscard]] Vec3 reaction(NodeId node) const;  ///< sum of contact impulses taken by a keyed or fixed body, N s
-  /// How a joint stood at the end of the last step before or at `time()`; nothing once it is gone: it broke, it ended,
-  /// or one of its bodies left. @throws std::invalid_argument with the nearest name
+  /// The state of a joint at the end of the last step before or at `time()`; empty once it is gone: because it broke or
+  /// ended, or because one of its bodies left. @throws std::invalid_argument with the nearest name
   [[nodiscard]] std::optional<JointReading> joint(std::string_view name) const;
-  /// The description's and those that were added until `time()`, in that order, also those that are gone; one that came
-  /// again by the name of one that had gone stands in its place.
+  /// The joints of the description and those added until `time()`, in that order, including those that are gone; a
+  /// joint added under the name of one that is gone takes its place.
   [[nodiscard]] std::vector<JointEnds> joints() const;
   [[nodiscard]] SoftNodes soft(std::string_view name) const;  ///< @throws std::invalid_argument with the nearest name
   /// Its wheels, in the description's order. @throws std::invalid_argument with the nearest name
   [[nodiscard]] std::vector<StageWheel> vehicle(std::string_view name) const;
   [[nodiscard]] StageParticles particles(std::string_view name) const;  ///< @throws the same
-  [[nodiscard]] StageEnergy energy() const;    ///< between two steps: on the straight way from one to the other
-  [[nodiscard]] Path path(NodeId node) const;  ///< where the animation wants the node
+  [[nodiscard]] StageEnergy energy() const;                             ///< between two steps: linearly interpolated
+  [[nodiscard]] Path path(NodeId node) const;                           ///< where the animation wants the node
   [[nodiscard]] const StageDescription& description() const;
 
-  // Hand-off by the caller, at exactly `time()`. @throws NodeNotFinite when what leads the body there is too fast
+  // Hand-off by the caller, at exactly `time()`. @throws NodeNotFinite when the path the body takes over is too fast
   void release(NodeId node, const TakeOver& settings = {});
   void recover(NodeId node, const HandBack& settings = {});
   void hand_over(NodeId node, const OwnerChange& change);  ///< to any owner, at once or along a ramp
   void arm(Rule rule);
 
-  // Plays, at exactly `time()`; going back finds it again
+  // Plays, at exactly `time()`; `seek` repeats what was asked
   /// Starts, stops, fades, weighs, re-speeds or seeks a play: see `PlayAction`. Keyed bodies follow their paths across.
-  /// @param play  its name, else that of its clip
-  /// @throws std::invalid_argument for what cannot be, unknown names with the nearest; nothing has changed then
+  /// @param play  name of the play, or else of its clip
+  /// @throws std::invalid_argument for an impossible request, and for unknown names with the nearest; nothing has
+  /// changed
   void ask(std::string_view play, PlayAction action);
 
-  // Graphs, the same
-  /// A parameter is what it is set to from now on; of a flag 0 or 1.
-  /// @throws std::invalid_argument with the nearest name, for a parameter that has keys, or a value not finite
+  // Graphs, likewise
+  /// Sets a parameter from now on; a flag to 0 or 1.
+  /// @throws std::invalid_argument with the nearest name, for a parameter that has keys, or a value that is not finite
   void set(std::string_view graph, std::string_view parameter, double value);
   /// An event that nothing waits for is lost. @throws std::invalid_argument with the nearest graph
   void send(std::string_view graph, std::string_view event);
-  /// A graph as it is now, to look into: states, transitions, parameters, events. What is set on it is not of the
-  /// stage.
+  /// A copy of a graph as it is now, to look into: states, transitions, parameters, events. Changes to the copy do not
+  /// reach the stage.
   /// @throws std::invalid_argument with the nearest name
   [[nodiscard]] GraphPlayer graph(std::string_view name) const;
 
-  // Vehicles, the same
+  // Vehicles, likewise
   /// Drives it in place of its script from now on.
-  /// @throws std::invalid_argument with the nearest name, for numbers that are not finite, and where nothing is told
+  /// @throws std::invalid_argument with the nearest name, for numbers that are not finite, and for an empty control
   void control(std::string_view vehicle, const VehicleControl& control);
 
   // Outside input as values
-  /// What plays, graphs, vehicles, bodies and impulses were asked for until now, each with its time: given again at
-  /// these to a stage of the same description, it runs to the same bits.
+  /// Everything that was asked of plays, graphs, vehicles and bodies until now, impulses included, each with its time:
+  /// a stage of the same description that gets them at these times runs to the same bits.
   [[nodiscard]] std::vector<TimedInput> inputs() const;
-  /// One of these, at exactly `time()`. @throws as the functions that it stands for
+  /// Gives one of these inputs, at exactly `time()`. @throws as the function that it stands for
   void give(const Input& input);
 
   // Changing the cast while it runs
   NodeId add(const NodeDescription& node);
   void remove(NodeId node);  ///< with its descendants, and the joints of their bodies
   void apply_impulse(NodeId node, const Vec3& impulse, const Vec3& point);
-  /// @throws std::invalid_argument naming what is wrong, also for the name of a joint that holds
+  /// @throws std::invalid_argument naming what is wrong, also for the name of a joint that still holds
   void add_joint(const JointDescription& joint);
-  void remove_joint(std::string_view name);  ///< none for one that is gone already
+  void remove_joint(std::string_view name);  ///< does nothing for a joint that is gone already
   void ignore(NodeId a, NodeId b);           ///< their bodies pass through each other
-  void collide(NodeId a, NodeId b);          ///< takes back `ignore`
-  /// Whether their bodies may meet: by their groups, and because nobody and no joint says otherwise.
+  void collide(NodeId a, NodeId b);          ///< undoes `ignore`
+  /// Whether their bodies may meet: their groups allow it, and no joint or `ignore` keeps them apart.
   [[nodiscard]] bool collides(NodeId a, NodeId b) const;
 
   // What happened
-  /// Of all but contacts, in order of time; inside, `time()` is the event's.
+  /// Called for all events but contacts, in order of time; within the callback, `time()` is the event's.
   void on_event(std::function<void(const StageEvent&)> callback);
   void on_contact(std::function<void(const StageEvent&)> callback);
   void on_handoff(std::function<void(const HandOff&)> callback);
   [[nodiscard]] std::span<const HandOff> handoffs() const noexcept;   ///< up to `time()`
   [[nodiscard]] std::span<const StageEvent> events() const noexcept;  ///< up to `time()`, contacts included
 
-  /// What has not fired until now, by node and then by rule: never touched, not as hard as asked for, no such marker,
-  /// its time still to come. Of a pattern each body by itself. What fired and has a change to come tells of that.
+  /// What has not fired until now, by node and then by rule, with the reason: never touched, not as hard as asked for,
+  /// no such marker, time still to come. A pattern counts for each of its bodies. What fired but still has a change to
+  /// come says so.
   [[nodiscard]] std::vector<UnfiredRule> unfired_rules() const;
 
   /// A number that changes when any bit of any body, soft body, wheel or particle does, at the next instant or step
   /// after `time()`.
   [[nodiscard]] std::uint64_t state_hash() const noexcept;
 
-  // Keeping it
-  /// The stage as bytes, from which `load` makes it again: at its time, with all that happened and was changed until
-  /// then. It then steps to the same bits, and goes back to the same, too.
+  // Saving
+  /// The stage as bytes, from which `load` restores it: at its time, with everything that happened and was changed
+  /// until then. It then steps, and seeks back, to the same bits.
   /// @throws std::invalid_argument when a body is not finite
   [[nodiscard]] std::vector<std::byte> save() const;
   /// Becomes the stage that was saved; callbacks stay as they are.
-  /// @throws std::invalid_argument telling what is wrong with the bytes, or when they are of a stage that another
-  /// description was given for; nothing has changed then
+  /// @throws std::invalid_argument saying what is wrong with the bytes, or when they belong to a stage of another
+  /// description; nothing has changed then
   void load(std::span<const std::byte> saved);
 
  private:
@@ -223,7 +225,7 @@ class Stage {
   struct Implementation;
   [[nodiscard]] Implementation& inside() const;  ///< @throws std::logic_error when moved from
 
-  std::shared_ptr<Implementation> implementation_;  ///< shared with the call that a callback is called from
+  std::shared_ptr<Implementation> implementation_;  ///< shared with the call from which a callback is called
 };
 
 }  // namespace tweenfall
