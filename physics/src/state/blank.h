@@ -7,7 +7,7 @@
 
 namespace tweenfall::state {
 
-/// Whether nothing is lost where it is taken for 0: a -0 is another number when it is saved.
+/// Whether a value may be replaced by 0: -0 may not, as it is saved as another number.
 [[nodiscard]] inline bool blank(double value) {
   return std::bit_cast<std::uint64_t>(value) == 0;
 }

@@ -15,7 +15,7 @@ Mat3 Body::world_inverse_inertia(const Quat& rotation) const {
 }
 
 void Body::set_filter(const Filter& its) {
-  // Those who meet all others have none, so that a world of many stays small.
+  // Bodies that meet all others have none, so that a world of many bodies stays small.
   if (its == Filter{})
     filter.reset();
   else

@@ -9,13 +9,13 @@
 
 namespace tweenfall::state {
 
-/// What a body is from when it is added until it is removed.
+/// What a body is made of, unchanged from when it is added until it is removed.
 struct Makeup {
   Shape shape;
   MassProperties mass;                  ///< kept while keyed; the solver masks it
   Mat3 inverse_inertia = Mat3::Zero();  ///< node axes
   double radius = 0;                    ///< farthest point from the center of mass, m; infinite for a plane
-  double roundness = 0;                 ///< radius with which the surface rolls: of a ball or a capsule, m
+  double roundness = 0;                 ///< radius with which the surface rolls, of a ball or a capsule, m
   double linear_damping = 0;
   double angular_damping = 0;
   double friction = 0;
@@ -27,13 +27,13 @@ struct Makeup {
   bool sensor = false;
   bool weighed = false;    ///< its mass properties were given, not those of an even solid
   bool spherical = false;  ///< the same moment about every axis: spin feels no gyroscopic torque
-  bool turned = false;     ///< what it rolls with depends on where it is touched; of a compound, too
+  bool turned = false;     ///< what it rolls with depends on where it is touched; also for a compound
 };
 
-/// That of nobody.
+/// The makeup of no body.
 [[nodiscard]] const std::shared_ptr<const Makeup>& no_makeup();
 
-/// What only those bodies have that are led somewhere, bear others without moving, or have a surface that moves.
+/// Only for bodies that are led, carry others without moving, or have a moving surface.
 struct Extra {
   Motion target;           ///< of the node's origin at the end of the step
   Vec3 reaction{0, 0, 0};  ///< N s
@@ -46,20 +46,20 @@ struct Work {
   Vec3 torque{0, 0, 0};  ///< N m
 };
 
-/// Whom a body may meet, as the caller last said.
+/// What a body may meet, as the caller last set it.
 struct Filter {
   std::uint64_t groups = 1;
   std::uint64_t collides_with = ~std::uint64_t{0};
   bool operator==(const Filter&) const = default;
 };
 
-/// Everything the world knows about one body. Plain values: a copy of it steps to the same bits. What bodies that are
-/// alike have in common stands in `makeup`, and what only few have in `extra`.
+/// Everything the world knows about one body. Plain values: a copy of it steps to the same bits. What equal bodies
+/// have in common is in `makeup`, and what only few have is in `extra`.
 struct Body {
   bool alive = false;
   bool fixed = false;
   bool asleep = false;
-  bool placed = true;       ///< added or moved by the caller since the last step: what sleeps beside it wakes
+  bool placed = true;       ///< added or moved by the caller since the last step: bodies asleep beside it wake
   bool has_target = false;  ///< a target was set since the last step
   bool led = false;         ///< driven, and its target moved
   bool saturated = false;   ///< its drive was at its limit in the last step
@@ -70,10 +70,10 @@ struct Body {
 
   Vec3 center{0, 0, 0};  ///< center of mass, world
   Twist twist;           ///< at the center of mass
-  Motion motion;         ///< of the node's origin, exactly as told while keyed
-  Boxed<Work> work;      ///< of those to which the caller applied some
+  Motion motion;         ///< of the node's origin, exactly as set while keyed
+  Boxed<Work> work;      ///< of bodies to which the caller applied some
 
-  Boxed<Filter> filter;                                ///< of those that do not meet all others
+  Boxed<Filter> filter;                                ///< of bodies that do not meet all others
   std::shared_ptr<const Makeup> makeup = no_makeup();  ///< never null
   Boxed<Extra> extra;                                  ///< of all that do not move by themselves alone
 
@@ -82,7 +82,7 @@ struct Body {
   [[nodiscard]] const Mat3& inverse_inertia() const { return makeup->inverse_inertia; }
   [[nodiscard]] double radius() const { return makeup->radius; }
   [[nodiscard]] bool spherical() const { return makeup->spherical; }
-  /// A ball around its center of mass: no contact that does not rub can turn it.
+  /// A ball around its center of mass: no contact without friction can turn it.
   [[nodiscard]] bool round() const {
     return spherical() && std::holds_alternative<Sphere>(shape().solid) && mass().center == shape().offset.position;
   }
@@ -105,20 +105,20 @@ struct Body {
   }
 
   [[nodiscard]] bool immovable() const { return fixed || drive.owner() == Owner::keyed; }
-  /// What the caller applied, and of the weight what a drive bears, N.
+  /// What the caller applied, plus the share of the weight that a drive carries, N.
   [[nodiscard]] Vec3 steady_force(const Vec3& gravity) const {
     if (drive.gravity_compensation == 0 || drive.owner() != Owner::driven) return force();
     return force() - (drive.gravity_compensation * mass().mass) * gravity;
   }
-  /// On its way to another place in this step.
+  /// Whether it is moving to another place in this step.
   [[nodiscard]] bool displaces() const {
     return has_target && !fixed &&
            (target().pose.position != motion.pose.position ||
             target().pose.rotation.coeffs() != motion.pose.rotation.coeffs());
   }
-  /// May change what touches it.
+  /// Whether it may change what touches it.
   [[nodiscard]] bool stirs() const { return placed || (immovable() ? displaces() : !asleep); }
-  /// Whether its place and velocity are numbers that a world takes.
+  /// Whether its position and velocity are numbers that a world accepts.
   [[nodiscard]] bool finite() const {
     return countable(center) && countable(motion.pose.position) && motion.pose.rotation.coeffs().allFinite() &&
            countable(twist.linear) && countable(twist.angular) && countable(motion.twist.linear);
@@ -126,7 +126,7 @@ struct Body {
   [[nodiscard]] Mat3 world_inertia(const Quat& rotation) const;
   [[nodiscard]] Mat3 world_inverse_inertia(const Quat& rotation) const;
 
-  /// How the surface moves against the body, at the center of mass, world axes.
+  /// How the surface moves relative to the body, at the center of mass, world axes.
   [[nodiscard]] Twist surface() const {
     const Twist& own = extra.value().surface_velocity;
     return {motion.pose.rotation * own.linear, motion.pose.rotation * own.angular};
@@ -138,7 +138,7 @@ struct Body {
   void follow_center(const Quat& rotation);
 };
 
-/// An arm to a contact after its body turned: the solid's core turns along, the round skin over it stays below.
+/// The arm to a contact after its body turned: the core of the solid turns along, the round skin over it does not.
 /// @param skin  from the core to the contact, m
 [[nodiscard]] inline Vec3 carried(const Quat& turn, const Vec3& arm, const Vec3& skin) {
   return turn * (arm - skin) + skin;

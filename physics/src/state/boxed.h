@@ -6,7 +6,7 @@
 
 namespace tweenfall::state {
 
-/// A value that most have not, in a place of its own; copied like any other value.
+/// A value that most owners lack, allocated separately; copied like any other value.
 template <class T>
 class Boxed {
  public:
@@ -25,18 +25,18 @@ class Boxed {
   ~Boxed() = default;
 
   [[nodiscard]] bool has_value() const { return value_ != nullptr; }
-  /// That of those who have none, too.
+  /// The value, or a default one if there is none.
   [[nodiscard]] const T& value() const {
     static const T none{};
     return value_ ? *value_ : none;
   }
-  /// From now on there is one.
+  /// The value, created if there is none.
   [[nodiscard]] T& own() {
     if (!value_) value_ = std::make_unique<T>();
     return *value_;
   }
   void reset() { value_.reset(); }
-  /// It will be asked for soon.
+  /// Prefetches it.
   void fetch() const {
     if (value_) state::fetch(value_.get());
   }

@@ -43,7 +43,7 @@ double radius_of(const Solid& solid) {
   return std::numeric_limits<double>::infinity();
 }
 
-/// What a body can have: moments about all axes, and none so small beside another that it divides by nothing.
+/// What a body can have: moments about all axes, none so small beside another that dividing by it fails.
 void require_solid(const MassProperties& weighed) {
   tweenfall::validate(weighed);
   require_finite(weighed.center, "center of mass");

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a world takes. All throw std::invalid_argument that tells what is wrong.
+/// What a world accepts. All throw std::invalid_argument saying what is wrong.
 
 #include <tweenfall/physics/world.h>
 
@@ -26,13 +26,13 @@ void validate_surface(const Twist& velocity);
   return surface.linear != Vec3::Zero() || surface.angular != Vec3::Zero();
 }
 
-/// The motion with its rotation normalized where it is not.
+/// The motion with its rotation normalized if it is not yet.
 [[nodiscard]] Motion checked(Motion motion);
 
 /// Sets what follows from a body's shape and mass: mass properties, radius, roundness. A plane has none.
 /// @param immovable  fixed or keyed
 /// @param given  kg; absent: density times volume
-/// @param weighed  instead of what an even solid has
+/// @param weighed  in place of those of an even solid
 void give_mass(Makeup& body, bool immovable, const std::optional<double>& given, double density,
                const std::optional<MassProperties>& weighed);
 

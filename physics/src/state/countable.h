@@ -6,9 +6,9 @@
 
 namespace tweenfall::state {
 
-/// Numbers that a world takes: their squares, and the squares of those, are far from the ends of what a double holds.
+/// Limits of the numbers that a world accepts: their fourth powers are still far from the limits of a double.
 constexpr double largest = 1e30;
-constexpr double smallest = 1e-30;  ///< of what must be positive
+constexpr double smallest = 1e-30;  ///< of values that must be positive
 
 [[nodiscard]] inline bool countable(double value) {
   return std::abs(value) <= largest;

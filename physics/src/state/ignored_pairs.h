@@ -6,8 +6,8 @@
 
 namespace tweenfall::state {
 
-/// Pairs of bodies that pass through each other: because the caller asked for it, or because something holds them
-/// together that wants it so.
+/// Pairs of bodies that pass through each other: because the caller asked for it, or because something that holds them
+/// together requires it.
 class IgnoredPairs {
  public:
   struct Entry {
@@ -20,11 +20,11 @@ class IgnoredPairs {
   explicit IgnoredPairs(std::vector<Entry> entries) : entries_(std::move(entries)) {}  ///< by pair
 
   [[nodiscard]] bool contains(std::uint32_t a, std::uint32_t b) const;
-  /// What the caller asks for. @return whether the pair met before and does not now, or the other way round
+  /// What the caller asks for. @return whether this changes if the pair meets
   bool ask(std::uint32_t a, std::uint32_t b, bool ignore);
-  /// One more that holds them together. @return whether the pair met before
+  /// One more thing holds them together. @return whether the pair met before
   bool hold(std::uint32_t a, std::uint32_t b);
-  /// One less. @return whether the pair meets again
+  /// One thing less. @return whether the pair meets again
   bool let_go(std::uint32_t a, std::uint32_t b);
   void remove(std::uint32_t body);                                          ///< with all its pairs
   [[nodiscard]] const std::vector<Entry>& all() const { return entries_; }  ///< by pair

@@ -5,8 +5,8 @@
 
 namespace tweenfall::state {
 
-/// What follows from something that changes, made when it is first asked for after a change, by whichever thread is
-/// first. A copy begins without one.
+/// Something derived from data that changes: made on first use after a change, by whichever thread is
+/// first. A copy starts without it.
 template <class T>
 class LazilyMade {
  public:
@@ -20,7 +20,7 @@ class LazilyMade {
   ~LazilyMade() = default;
 
   void forget() noexcept { made_.store(false, std::memory_order_relaxed); }
-  /// @param make  called with what there was before
+  /// @param make  called with the previous value
   template <class Make>
   [[nodiscard]] const T& get(const Make& make) const {
     if (!made_.load(std::memory_order_acquire)) {

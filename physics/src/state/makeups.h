@@ -7,17 +7,17 @@
 
 namespace tweenfall::state {
 
-/// Lets bodies share what they are made of with such as were made alike a short while before.
+/// Lets a body share its makeup with equal bodies that were added shortly before.
 class Makeups {
  public:
   [[nodiscard]] std::shared_ptr<const Makeup> share(const Makeup& makeup);
 
  private:
-  std::array<std::shared_ptr<const Makeup>, 32> last_;  ///< in turns
+  std::array<std::shared_ptr<const Makeup>, 32> last_;  ///< used in turn
   std::size_t next_ = 0;
 };
 
-/// Whether all of two makeups is the same to the bit, and hulls, meshes and the like are the same objects.
+/// Whether two makeups are the same to the bit, with the same objects for hulls, meshes and the like.
 [[nodiscard]] bool alike(const Makeup& a, const Makeup& b);
 
 }  // namespace tweenfall::state

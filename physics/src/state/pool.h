@@ -7,16 +7,16 @@ namespace tweenfall::state {
 
 constexpr std::uint32_t nowhere = 0xffffffff;
 
-/// Values in places that are used again.
+/// Values in places that are reused.
 template <class T>
 class Pool {
  public:
   [[nodiscard]] const T& operator[](std::uint32_t place) const { return all_[place]; }
   [[nodiscard]] T& operator[](std::uint32_t place) { return all_[place]; }
-  /// Null for nowhere.
+  /// Null for `nowhere`.
   [[nodiscard]] const T* find(std::uint32_t place) const { return place == nowhere ? nullptr : &all_[place]; }
   [[nodiscard]] T* find(std::uint32_t place) { return place == nowhere ? nullptr : &all_[place]; }
-  /// What is there; a new one, and its place, where it was nowhere.
+  /// The value there; if the place is `nowhere`, a new value, and `place` is set.
   T& own(std::uint32_t& place) {
     if (place != nowhere) return all_[place];
     if (unused_.empty()) {

@@ -4,8 +4,8 @@
 
 namespace tweenfall::state {
 
-/// Has what will soon be looked at brought near the processor: of more bodies and contacts than its nearest memory
-/// holds each step looks at each only once, and would wait for each. Changes nothing.
+/// Prefetches what will soon be read: if there are more bodies and contacts than fit into the nearest cache, each step
+/// reads each of them only once, and would wait for each. Changes nothing.
 template <class Thing>
 inline void fetch(const Thing* thing) {
 #if defined(__GNUC__)

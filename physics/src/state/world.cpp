@@ -16,7 +16,7 @@ namespace tweenfall {
 namespace state {
 namespace {
 
-/// From here on, until it is told otherwise, it is led nowhere else.
+/// From here on it is not led anywhere until a new target is set.
 void stay(Body& body) {
   if (body.drive.owner() == Owner::free && !body.fixed && !body.extra.has_value()) return;
   body.target() = body.motion;
@@ -32,7 +32,7 @@ void clear_work(Body& body) {
 }  // namespace state
 
 state::Body& World::Implementation::at(BodyId id) {
-  // The words are put together when they are needed: this is asked for every body in every step.
+  // The text is only built when needed: this is asked for every body in every step.
   if (!(id.index < bodies.size() && bodies[id.index].alive && bodies[id.index].generation == id.generation))
     throw std::invalid_argument("there is no body with index " + std::to_string(id.index) + " and generation " +
                                 std::to_string(id.generation) + ": it was removed, or belongs to another world");
@@ -291,7 +291,7 @@ void World::set_drive(BodyId id, const Drive& drive) {
       std::string("a body with ") + kind_name(body.shape().solid) + " must stay fixed or keyed: it has no mass");
   const Owner before = body.drive.owner();
   body.drive = drive;
-  if (before == drive.owner() && before != Owner::driven) return;  // only numbers that this owner does not read
+  if (before == drive.owner() && before != Owner::driven) return;  // only numbers that this owner does not use
   if (before == drive.owner()) {
     world.wake(id.index);
     return;

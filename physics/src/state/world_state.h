@@ -15,8 +15,8 @@
 
 namespace tweenfall::state {
 
-/// Everything that leads on from step to step, as plain values: what is copied, hashed, saved and loaded. Its
-/// fields are told of in `saving/fields.h`.
+/// Everything that carries over from step to step, as plain values: it is copied, hashed, saved and loaded. Its
+/// fields are listed in `saving/fields.h`.
 struct WorldState {
   WorldSettings settings;
   std::vector<Body> bodies;
@@ -31,15 +31,15 @@ struct WorldState {
   std::vector<Joint> joints;
   std::vector<std::uint32_t> unused_joints;  ///< indices of removed joints
   std::vector<JointId> broken;               ///< in the last step
-  std::vector<Contact> planar_contacts;      ///< what the caller is told of a plane's; else it is told from `memories`
-  std::vector<EndedContact> ended;           ///< in the last step
-  std::vector<EndedContact> gone_contacts;   ///< with bodies that were removed since then
-  std::vector<std::uint32_t> sensors;        ///< indices of bodies, sorted
-  std::vector<SensorOverlap> overlaps;       ///< by sensor, then by body
-  std::vector<SensorOverlap> left_sensors;   ///< in the last step
+  std::vector<Contact> planar_contacts;  ///< what the caller sees of a planar world; else it is taken from `memories`
+  std::vector<EndedContact> ended;       ///< in the last step
+  std::vector<EndedContact> gone_contacts;  ///< with bodies that were removed since then
+  std::vector<std::uint32_t> sensors;       ///< indices of bodies, sorted
+  std::vector<SensorOverlap> overlaps;      ///< by sensor, then by body
+  std::vector<SensorOverlap> left_sensors;  ///< in the last step
   std::vector<soft::SoftBody> softs;
   std::vector<std::uint32_t> unused_softs;  ///< indices of removed soft bodies
-  Boxed<flat::Flat> flat;                   ///< where there is a plane
+  Boxed<flat::Flat> flat;                   ///< only of a planar world
 };
 
 }  // namespace tweenfall::state

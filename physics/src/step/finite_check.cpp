@@ -10,7 +10,7 @@ namespace tweenfall {
 namespace step {
 namespace {
 
-/// What most likely threw a body: the greatest of what it had and of what acted on it.
+/// What most likely threw a body: the greatest of its earlier motion and of what acted on it.
 std::string cause_of(const Twist& before, const forces::Load& load, bool touched, double dt) {
   const double speed = before.linear.norm(), spin = before.angular.norm();
   const double gain = load.acceleration.norm() * dt, torque = load.torque.norm();
@@ -38,7 +38,7 @@ NotFinite::NotFinite(const NotFinite& fault, const std::string& text)
 void World::Implementation::check_bodies(double dt, double at) const {
   for (const std::uint32_t i : watched) {
     if (bodies[i].finite()) continue;
-    // Without a step behind it, the body had been left so.
+    // If no step was made, the body was left like this.
     const std::string cause = i < starts.size() && dt > 0 ? step::cause_of(starts[i].twist, loads[i], moved[i] != 0, dt)
                                                           : "it was not finite before the step";
     throw NotFinite({i, bodies[i].generation}, at, cause);

@@ -14,11 +14,12 @@ namespace tweenfall {
 namespace step {
 namespace {
 
-/// Contacts that are worth a part of their own.
+/// Number of contacts that are worth a task of their own.
 constexpr std::size_t contacts_worth_a_part = 256;
-/// Parts of its size by which a solid must come on in a step to be looked at.
+/// A solid is checked if it moves forward in a step by more than this part of its size.
 constexpr double far_on = 0.02;
-/// And by which its middle stays in front: what is held there again and again would come nearer than rounding allows.
+/// Its middle stays in front by this part of its size: held there again and again, it would get closer than rounding
+/// allows.
 constexpr double in_front = 0.1;
 
 /// Where a body would have been at a time in the step if nothing had touched it.
@@ -81,7 +82,7 @@ void World::Implementation::hold_before_surfaces() {
     const shapes::Placed here{Vec3::Zero(), Mat3::Identity()};
     const std::optional<RayHit> hit = queries::first_on_surface(*surface, here, {from, way / length, length});
     if (!hit) continue;
-    // Back to where it first touches, or its middle to just before the surface.
+    // Back to where it first touches, or with its middle just before the surface.
     const shapes::Placed now = shapes::place(ground.shape(), ground.motion.pose);
     const Vec3 back = now.axes * way;
     Pose start = body.motion.pose;

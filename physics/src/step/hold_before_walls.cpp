@@ -6,21 +6,21 @@
 #include "queries/sweep.h"
 #include "state/world_data.h"
 
-/// A blow may turn what is small so fast that no row follows it to the end of the step, and its corners then pull it
-/// through what it struck. The middle of a body never passes what stands or is led: it is taken back to where it comes
-/// to touch.
+/// A blow may turn a small body so fast that no row follows it to the end of the step, and its corners then pull it
+/// through the body it struck. The middle of a body never passes through anything fixed or led: it is taken back to
+/// where it first touches.
 
 namespace tweenfall {
 
 namespace step {
 namespace {
 
-/// Parts of its size by which the middle of a solid must come on in a step to be looked at.
+/// A solid is checked if its middle moves in a step by more than this part of its size.
 constexpr double farther_on = 0.02;
-/// What is led and turns by more than this in the step is not looked at, rad: seen from it, straight ways are bent.
+/// A led body that turns by more than this in the step is not checked, rad: seen from it, straight paths are bent.
 constexpr double turns_away = 0.3;
 
-/// About from a solid's middle to the nearest place of its surface, m; 0 where only its core tells.
+/// About the distance from a solid's middle to its nearest surface point, m; 0 if only its core tells.
 double thickness(const Solid& solid) {
   if (const auto* box = std::get_if<Box>(&solid)) return box->half_extents.minCoeff();
   if (const auto* sphere = std::get_if<Sphere>(&solid)) return sphere->radius;
@@ -29,9 +29,9 @@ double thickness(const Solid& solid) {
   return 0;
 }
 
-/// Not less than what a place of the body came on in the step, m.
+/// At least the distance that any point of the body moved in the step, m.
 double came_on(const state::Body& body, const Start& start) {
-  // A chord of a turn is no longer than that of the whole turn of a quaternion, which turns by half of it.
+  // The chord of a turn is no longer than that of the whole turn of a quaternion, which turns by half of it.
   const Vec4 turned = body.motion.pose.rotation.coeffs() - start.rotation.coeffs();
   return (body.center - start.center).norm() + 2 * body.radius() * turned.norm();
 }
@@ -59,7 +59,7 @@ void World::Implementation::hold_before_walls(double dt) {
     // Behind a plane there is no other side.
     if (moved[index] == 0 || std::holds_alternative<Plane>(wall.shape().solid)) continue;
     const Shape& part = step::part_of(body, wall_is_a ? contact->part_b : contact->part_a);
-    // Most have not come far enough, which is told without their cores.
+    // Most bodies have not moved far enough, which shows without their cores.
     const step::Start& start = starts[index];
     const step::Start& wall_start = starts[wall_index];
     if (step::stands(wall, wall_start) && step::came_on(body, start) <= step::farther_on * step::thickness(part.solid))
@@ -77,7 +77,7 @@ void World::Implementation::hold_before_walls(double dt) {
     Pose before;
     before.rotation = start.rotation;
     before.position = start.center - start.rotation * body.mass().center;
-    // As the wall sees it, which may have gone on meanwhile.
+    // Relative to the wall, which may have moved meanwhile.
     const shapes::Placed wall_then = {wall_start.center, wall_start.rotation.toRotationMatrix()},
                          wall_now = {wall.center, wall.motion.pose.rotation.toRotationMatrix()};
     const Vec3 from =
@@ -86,7 +86,7 @@ void World::Implementation::hold_before_walls(double dt) {
     const double length = way.norm();
     if (!(length > step::farther_on * core->size)) continue;
     const std::optional<RayHit> hit = queries::first_on_ray(wall_part, wall.motion.pose, {from, way / length, length});
-    // What is jointed would be torn off.
+    // A jointed body would be torn off.
     const auto joins = [index](const joints::JointLink& link) { return link.a == index || link.b == index; };
     if (!hit || hit->inside || std::any_of(links.begin(), links.end(), joins)) continue;
     Pose back = body.motion.pose;

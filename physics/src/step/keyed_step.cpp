@@ -6,11 +6,11 @@ namespace tweenfall::step {
 
 namespace {
 
-/// Parts of the change of velocity by which a path's mean velocity may be off the mean of its ends.
+/// Part of the change of velocity by which a path's mean velocity may differ from the mean of its end velocities.
 constexpr double evenness = 0.1;
-/// A change of velocity of this part of the velocity is taken as it is.
+/// A change of velocity below this part of the velocity is taken as it is.
 constexpr double slight = 0.01;
-/// A rate of displacement that is uncertain by more than this, m/s or rad/s, is rounding and no rate.
+/// If a rate of displacement is uncertain by more than this, m/s or rad/s, it is mere rounding.
 constexpr double certain = 1e-6;
 constexpr double path_rounding = 4e-16;
 
@@ -23,18 +23,18 @@ void fit(const Vec3& displacement, const Vec3& start, const Vec3& end, double si
   }
   mean = displacement / dt;
   const Vec3 change = end - start;
-  // Where an acceleration passes through zero the change is less than what a curve's jerk makes of the mean.
+  // Where an acceleration passes through zero, the change is less than what the jerk of a curve makes of the mean.
   const Vec3 off = 0.5 * (start + end) - mean;
   if (!(off.norm() <= evenness * change.norm()) && !(change.norm() <= slight * mean.norm())) return;
   gain = change;
   bow = off;
 }
 
-/// Angular velocity, world axes, of what is turned by a rotation vector that changes so.
+/// Angular velocity, world axes, of a body whose rotation vector changes at this rate.
 Vec3 angular_of(const Vec3& turn, const Vec3& rate) {
   return turn.cross(rate) == Vec3::Zero() ? rate : Vec3(right_jacobian(-turn) * rate);
 }
-/// The other way round.
+/// The inverse.
 Vec3 rate_of(const Vec3& turn, const Vec3& angular) {
   return turn.cross(angular) == Vec3::Zero() ? angular : Vec3(right_jacobian_inverse(-turn) * angular);
 }
@@ -89,7 +89,7 @@ Vec3 slip_change(const Twist& led, const Rider& rider) {
 SlipOfRider slip_of_rider(const LedBody& led, const Vec3& arm, const Rider& rider, double h) {
   const Vec3 change = h * slip_change(led.mean, rider);
   if (!rider.rolls) return {0.5 * change, change};
-  // Its velocity is that at the end from the start on, and the contact stays under it.
+  // A ball has the velocity of the end from the start on, and the contact stays under it.
   const Vec3 after = change - led.ending.angular.cross(rider.under - arm);
   return {after - (led.ending.linear - led.mean.linear) - (led.ending.angular - led.mean.angular).cross(arm), after};
 }

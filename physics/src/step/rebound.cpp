@@ -18,7 +18,7 @@ namespace {
 /// A change of velocity by the rebound that no longer matters, m/s.
 constexpr double quiet = 1e-14;
 
-/// Whether a point that shall rebound was reached.
+/// Whether a point that should rebound was reached.
 bool rebounds(const SolvedContact& contact) {
   for (int i = 0; i < contact.count; ++i) {
     const SolvedPoint& point = contact.points[static_cast<std::size_t>(i)];
@@ -27,15 +27,16 @@ bool rebounds(const SolvedContact& contact) {
   return false;
 }
 
-/// What the rebound added to the impulses of a contact's points. Four points of one plane can press in more ways than
-/// one with the same effect: of them the one that spreads the impulse most evenly, whatever order they were solved in.
+/// What the rebound added to the impulses of a contact's points. Four points in one plane can press in more than one
+/// way with the same effect: of these ways, the one that spreads the impulse most evenly, in whatever order they were
+/// solved.
 std::array<double, 4> gained(const SolvedContact& contact) {
   std::array<double, 4> gain{};
   const auto count = static_cast<std::size_t>(contact.count);
   for (std::size_t i = 0; i < count; ++i)
     gain[i] = contact.points[i].normal_impulse - contact.points[i].normal_before_rebound;
   if (count < 4) return gain;
-  // Parts without effect, by Cramer's rule: to each point belongs the area that the other three span.
+  // Combinations without effect, by Cramer's rule: the share of each point is the area that the other three span.
   std::array<double, 4> idle{};
   double along = 0, square = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -85,7 +86,7 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
   return most;
 }
 
-/// The rebound began inside the sub-step: what is left of it, it moved the bodies.
+/// The rebound began inside the sub-step: for the rest of the sub-step, it moved the bodies.
 void Solver::move_by_rebound(const SolvedContact& constraint, const PointRows* rows) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
@@ -96,7 +97,7 @@ void Solver::move_by_rebound(const SolvedContact& constraint, const PointRows* r
     // Bodies still closing when it was solved are on the surface already: stopping them moves nothing.
     const double part = point.rebound / (point.rebound - std::min(0.0, point.speed_before_rebound));
     // A rebound that gravity nearly uses up lasts long and takes little impulse: what neighbors pass on through the
-    // point is none of it.
+    // point is not part of it.
     const double most = rows[i].mass * point.rebound;
     const double own = std::clamp(gain[static_cast<std::size_t>(i)] * part, -most, most);
     const Vec3 moved = own * point.rebound_time * constraint.normal;
@@ -110,7 +111,7 @@ void Solver::move_by_rebound(const SolvedContact& constraint, const PointRows* r
   }
 }
 
-/// Takes back as much of the rebound as would leave the island more energy than it had and than was put into it.
+/// Takes back as much of the rebound as would leave the island with more energy than it had and was given.
 void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts) {
   islands::IslandEnergy energy;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -130,12 +131,12 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<for
     course.rotation = entry.rotation;
     energy.add(body, loads[entry.index], course);
   }
-  // What moves by its own will does work on what it pushes.
+  // A body that moves by its own will does work on what it pushes.
   for (const SolvedContact& contact : contacts) {
     const SolvedContact& constraint = contact;
     const SolverBody& a = at(constraint.a);
     const SolverBody& b = at(constraint.b);
-    // And so does a surface.
+    // So does a moving surface.
     if (a.conveys || b.conveys)
       for (int i = 0; i < constraint.count; ++i) {
         const SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];

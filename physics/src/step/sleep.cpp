@@ -10,18 +10,18 @@ namespace tweenfall {
 namespace step {
 namespace {
 
-/// A driven body is never quite still while it nears its target: parts of the speed below which others are.
+/// A driven body is never quite still while it nears its target: it counts as still below this part of the usual speed.
 constexpr double driven_share = 1e-3;
 /// A spring that would bring a body to this part of that speed before it fell asleep keeps it awake.
 constexpr double pulling_share = 0.1;
-/// Among what is noted of bodies that something pulls: it may turn them, too.
+/// A flag for bodies that something pulls and may also turn.
 constexpr char turned_too = 2;
-/// Displacements of this part of a place are rounding.
+/// Displacements below this part of a position are rounding.
 constexpr double displacement_rounding = 1e-14;
-/// Bodies that are worth a part of their own.
+/// Number of bodies that are worth a task of their own.
 constexpr std::size_t worth_sharing_sleep = 128;
 
-/// Whether a body is slow and has hardly moved: what is taken out of an overlap moves without a speed.
+/// Whether a body is slow and has hardly moved: a body pushed out of an overlap moves without a speed.
 bool still(const state::Body& body, const Start& start, double speed, double dt) {
   if (!(body.twist.linear.norm() < speed && body.twist.angular.norm() * body.radius() < speed)) return false;
   const double turn = 2 * (body.motion.pose.rotation * start.rotation.conjugate()).vec().norm();
@@ -29,7 +29,7 @@ bool still(const state::Body& body, const Start& start, double speed, double dt)
          turn * body.radius() <= speed * dt + displacement_rounding * body.radius();
 }
 
-/// How fast a body speeds up, m/s^2 and rad/s^2.
+/// How fast a body accelerates, m/s^2 and rad/s^2.
 struct Pull {
   double linear, turning;
 };
@@ -39,7 +39,7 @@ Pull pull_of(const state::Body& body, const forces::Load& load) {
           (body.inverse_inertia() * (body.motion.pose.rotation.conjugate() * load.torque)).norm()};
 }
 
-/// What contacts leave of it.
+/// The part of the pull that contacts do not hold.
 Pull pull_beside_contacts(const state::Body& body, const Start& start, double dt) {
   return {(body.twist.linear - start.twist.linear).norm() / dt, (body.twist.angular - start.twist.angular).norm() / dt};
 }
@@ -72,7 +72,7 @@ bool World::Implementation::wake_islands() {
     for (const std::uint32_t i : watched)
       if (!bodies[i].immovable() && !bodies[i].asleep) flags[islands.of(i)] = 1;
   const auto disturb = [&](const state::Body& by, std::uint32_t other) {
-    // What lies on a belt is under way, however slowly.
+    // A body on a belt is moving, however slowly.
     if (by.conveys && !bodies[other].immovable()) carried[islands.of(other)] = 1;
     if (!by.immovable() || bodies[other].immovable() || !by.stirs()) return;
     flags[islands.of(other)] = 1;
@@ -93,7 +93,7 @@ bool World::Implementation::wake_islands() {
 }
 
 void World::Implementation::let_sleep(double dt) {
-  // Whom something pulls may start slowly.
+  // A body that something pulls may start slowly.
   flags.assign(bodies.size(), 0);
   for (const forces::NumberedForce& entry : forces)
     if (!std::holds_alternative<Drag>(entry.force))
@@ -101,7 +101,7 @@ void World::Implementation::let_sleep(double dt) {
         if (flags[i] == 0 || !std::holds_alternative<Spring>(entry.force))
           flags[i] = std::holds_alternative<Spring>(entry.force) ? 1 : step::turned_too;
       });
-  // Per island the shortest stillness counts.
+  // The shortest stillness in an island counts for all of it.
   stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
   drowsy.clear();
   std::atomic<bool> all_finite = true;

@@ -4,14 +4,14 @@
 
 namespace tweenfall::step {
 
-/// A point while its contact is being solved by itself.
+/// A point while its contact is being solved alone.
 struct SolvedPoint : contacts::PointConstraint {
   Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};  ///< in the current sub-step
   double gap = 0;
   double normal_impulse = 0;        ///< of one sub-step, N s
   Vec3 friction_impulse{0, 0, 0};   ///< of one sub-step, world, N s
-  double wanted = 0;                ///< normal speed that the last pass asked for, m/s
-  double firm = 0;                  ///< share of its error that the last pass met: none where it left the point out
+  double wanted = 0;                ///< normal speed that the last pass aimed at, m/s
+  double firm = 0;                  ///< share of its error that the last pass removed: 0 if it left the point out
   double rebound = 0;               ///< normal speed wanted at the end of the sub-step, m/s
   double rebound_time = 0;          ///< how long the rebound moves the bodies in this sub-step, s
   double speed_before_rebound = 0;  ///< m/s
@@ -19,7 +19,7 @@ struct SolvedPoint : contacts::PointConstraint {
   Vec3 friction_before_rebound{0, 0, 0};
 };
 
-/// A contact while it is being solved by itself.
+/// A contact while it is being solved alone.
 struct SolvedContact : state::KeptImpulses {
   explicit SolvedContact(contacts::ContactConstraint& contact)
       : state::KeptImpulses(contact),
@@ -41,7 +41,7 @@ struct SolvedContact : state::KeptImpulses {
       point.gap = point.start_gap;
     }
   }
-  /// Gives the impulses back.
+  /// Returns the impulses to their origin.
   void store() const {
     static_cast<state::KeptImpulses&>(*origin) = *this;
     origin->total_rolling = total_rolling;
@@ -58,7 +58,7 @@ struct SolvedContact : state::KeptImpulses {
   Vec3 total_rolling{0, 0, 0};
   double spin_impulse = 0;
   bool impact;
-  bool rebounds = false;  ///< in an island that does, in this sub-step
+  bool rebounds = false;  ///< this sub-step is one in which its island rebounds
 };
 
 }  // namespace tweenfall::step

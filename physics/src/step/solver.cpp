@@ -19,13 +19,13 @@ using state::Body;
 
 namespace {
 
-/// Points whose gaps differ by less than this meet together, m.
+/// Points whose gaps differ by less than this meet at the same time, m.
 constexpr double beside = 1e-3;
-/// Impulses are kept from sub-steps of at least this part of the length of the last one kept: what shorter ones hold is
-/// mostly rounding, which would grow with the ratio of lengths.
+/// Impulses are kept from sub-steps of at least this part of the length of the last one kept: the impulses of shorter
+/// ones are mostly rounding, which would grow with the ratio of lengths.
 constexpr double long_enough = 0.5;
 
-/// Of bodies that are not in the island.
+/// For bodies that are not in the island.
 constexpr std::uint32_t nowhere = 0xffffffffu;
 
 bool pulls_without_limit(const Body& body) {
@@ -164,7 +164,7 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
   }
 }
 
-/// What is led goes through the sub-step by its mean velocity, so that it is where its path is at the end.
+/// A led body moves through the sub-step by its mean velocity, so that it is where its path is at the end.
 void Solver::lead(double h, int sub_step) {
   const double dt = h * sub_steps_;
   const double from = static_cast<double>(sub_step) / sub_steps_;
@@ -180,7 +180,7 @@ void Solver::lead(double h, int sub_step) {
   }
 }
 
-/// Then what it carries gets its velocity there.
+/// Afterwards the bodies it carries get the velocity at the end.
 void Solver::end_lead() {
   for (const LedBody& led : led_) {
     bodies_[led.place].linear = led.ending.linear;
@@ -210,8 +210,8 @@ void Solver::ride(const SolvedContact& constraint, const SolvedPoint& point, Poi
   rows.drift_by(on_a ? slip.moving : Vec3(-slip.moving), on_a ? slip.after : Vec3(-slip.after));
 }
 
-/// Points that press, or are about to, get one height: at different ones, however little, friction that lets none of
-/// them slip would hold the body's tilt too, against the normals.
+/// Points that press, or are about to, get the same height: at different heights, however close, friction that lets
+/// none of them slip would also hold the body's tilt, against the normals.
 void Solver::level(SolvedContact& constraint) {
   const std::span<SolvedPoint> points(constraint.points.data(), static_cast<std::size_t>(constraint.count));
   double pressing = 0, least_gap = std::numeric_limits<double>::infinity();
@@ -244,7 +244,7 @@ void Solver::warm_start(SolvedContact& constraint, PointRows* rows, const Softne
     SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     rows[i].prepare(a, b, point, normal, constraint.friction > 0 ? &along : nullptr);
     if (constraint.friction > 0 && !led_.empty()) ride(constraint, point, rows[i], h);
-    // What a contact bears may be far more than the masses that meet in it.
+    // A contact may bear a load far greater than the two masses that meet in it.
     const double stiffness = softness.firm / softness.giving *
                              (extrapolating_ ? std::max(1.0, heaviest_ * rows[i].scale * rows[i].scale) : 1.0);
     rows[i].firm = stiffness / (1 + stiffness);
@@ -301,7 +301,7 @@ double Solver::solve_drive(const std::vector<Body>& bodies, SolverBody& entry, d
   const Body& body = bodies[entry.index];
   if (!entry.movable || body.drive.owner() != Owner::driven || pulls_without_limit(body)) return 0;
   const forces::DriveLaw law = forces::drive_law(body, entry.center, entry.rotation, h, remaining);
-  // Velocity as it would be without the pull: contacts included, the drive's own impulse taken out.
+  // Velocity as it would be without the pull: contacts included, the drive's own impulse removed.
   const Vec3 linear = entry.linear - entry.inverse_mass * entry.drive_impulse;
   Vec3 impulse = ((linear + law.linear) / (1 + law.stiffness) - linear) / entry.inverse_mass;
   const double most = body.drive.max_force * h;
@@ -334,7 +334,7 @@ double Solver::pass(Contacts contacts, const Softness& softness, double h, bool 
   return change;
 }
 
-/// Where a contact holds a body, the velocity after the impulses counts: a mean would leave every tremble undamped.
+/// Where a contact holds a body, the velocity after the impulses counts: a mean would leave all jitter undamped.
 void Solver::find_lags(Contacts contacts) {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     bodies_[i].lag = bodies_[i].movable ? Vec3(0.5 * (starts_[i].linear - bodies_[i].linear)) : Vec3(0, 0, 0);
@@ -370,7 +370,7 @@ void Solver::add_totals(Contacts contacts, double h) {
       any = any || point.normal_impulse != 0 || point.friction_impulse != Vec3::Zero();
     }
     constraint.total_rolling += constraint.rolling_impulse;
-    // Also a body that only the last pass reached has momentum from it.
+    // A body that only the last pass reached also got momentum from it.
     if (any) at(constraint.a).touched = at(constraint.b).touched = true;
     // A blow says nothing about the forces after it.
     if (constraint.rebounds) continue;
@@ -415,8 +415,8 @@ void Solver::end_sub_step(double h) {
   }
 }
 
-/// Impulses are found for the inertia at the end of free flight, and the body then turns otherwise. In turns of less
-/// than a radian that is an error of the step; in greater ones it would feed the spin until nothing is finite.
+/// Impulses are computed for the inertia at the end of free flight, but the body then turns otherwise. In turns of less
+/// than a radian that is an error of the step; in larger ones it would feed the spin until nothing is finite.
 void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
   for (SolverBody& entry : bodies_) {
     const Body& body = bodies[entry.index];
@@ -451,7 +451,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
   const int passes = std::max(1, share - relaxing);
   const Softness hard;
   const Softness soft = soft_contacts(settings.push_out_speed, dt, sub_steps_, parts_);
-  // Out of two at a time no push is enough.
+  // Between two bodies that wedge it, no push is enough.
   extrapolating_ = extrapolates(bodies, springs) && !islands::is_wedged(found, bodies, soft.deep());
   for (int sub_step = 0; sub_step < sub_steps_; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);

@@ -22,7 +22,7 @@ struct SubStepStart {
   Vec3 linear_before_rebound, angular_before_rebound;
 };
 
-/// What bodies gave each other at one instant.
+/// What two bodies exchanged at one instant.
 struct Blow {
   contacts::ContactConstraint* contact = nullptr;
   Vec3 impulse{0, 0, 0};  ///< on the second body, N s
@@ -30,30 +30,30 @@ struct Blow {
   double approach = 0;    ///< greatest closing speed, m/s
 };
 
-/// Sequential impulses in sub-steps. Overlap is taken apart by soft contacts that move positions; hard passes then
-/// take the speed of that away again, so that it moves bodies and gives them no energy. Rebound follows in the sub-step
-/// of the impact, from the approach speed there, and never leaves an island more energy than it had.
+/// Sequential impulses in sub-steps. Overlap is removed by soft contacts that move positions; hard passes then remove
+/// the speed this gave, so that it moves bodies but gives them no energy. Rebound follows in the sub-step
+/// of the impact, from the approach speed there, and never leaves an island with more energy than it had.
 /// Sources: Catto, Fast and Simple Physics using Sequential Impulses, GDC 2006; Macklin and others,
 /// Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024 (soft contacts and relaxation).
 class Solver {
  public:
   using Springs = std::span<SpringRow* const>;
-  /// In a step; the passes are shared out among them.
+  /// Per step; the passes are distributed over them.
   static constexpr int usual_sub_steps = 8;
-  /// Up to so many contacts an island is solved to the end.
+  /// An island with up to this many contacts is solved to the end.
   static constexpr std::size_t to_the_end = 32;
 
-  /// Before the islands of a step. @param parts  the whole step over its length
+  /// Before the islands of a step. @param parts  length of the whole step divided by that of this one
   void begin(std::size_t bodies, double parts);
-  /// Moves all bodies of one island that `contacts` touch or `springs` hold by `dt`; fills in the contacts' impulses.
+  /// Moves those bodies of one island that `contacts` touch or `springs` hold by `dt`; fills in the contacts' impulses.
   /// @param springs  those too stiff to be part of the loads
   /// @param moved  by index: set for the bodies that were moved
   void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
              std::span<contacts::ContactConstraint* const> contacts, Springs springs, const WorldSettings& settings,
              double dt, std::vector<char>& moved, int sub_steps = usual_sub_steps);
-  /// Lets the bodies of a small island strike each other where they touch and close faster than a tremble: the hardest
-  /// blow first, each of two bodies alone (of equal ones all at once), until none is left. Momentum is kept, energy
-  /// never gained, and at restitution 1 without friction kept.
+  /// Lets the bodies of a small island strike each other where they touch and close noticeably: the hardest
+  /// blow first, each between two bodies alone (equal blows all at once), until none is left. Momentum is kept, and
+  /// energy never grows; at restitution 1 without friction it is kept.
   const std::vector<Blow>& strike(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
                                   std::span<contacts::ContactConstraint* const> contacts, double dt);
 
@@ -73,9 +73,9 @@ class Solver {
   void warm_start(SolvedContact& constraint, PointRows* rows, const Softness& softness, double h);
   double pass(Contacts contacts, const Softness& softness, double h, bool backward);
   double solve_contact(SolvedContact& constraint, const PointRows* rows, const Softness& softness, double h);
-  /// Passes until one changes nothing: so many, or where the island is small as many as it takes.
+  /// Makes passes until one changes nothing: at most `passes`, or as many as needed if the island is small.
   void settle(int passes, const std::function<double(bool backward)>& pass);
-  /// The normal impulses that do what the last pass asked for, with friction as it is.
+  /// The normal impulses that reach the speeds the last pass aimed at, with friction as it is.
   void press_at_once(SolvedContact& contact, const PointRows* rows);
   [[nodiscard]] bool extrapolates(const std::vector<state::Body>& bodies, Springs springs) const;
   void read_impulses(std::vector<double>& impulses) const;

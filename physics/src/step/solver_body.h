@@ -4,7 +4,7 @@
 
 namespace tweenfall::step {
 
-/// The number of a body that is not.
+/// Index of a led body that does not exist.
 constexpr std::uint32_t not_led = 0xffffffffu;
 
 /// A body while contacts are being solved.
@@ -24,13 +24,13 @@ struct SolverBody {
   Mat3 inverse_inertia = Mat3::Zero();
   Vec3 center{0, 0, 0}, start_center{0, 0, 0};
   Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
-  Quat turn{1, 0, 0, 0};           ///< from the start of the step to now
+  Quat turn{1, 0, 0, 0};           ///< from the start of the step until now
   Quat free_rotation{1, 0, 0, 0};  ///< at the end of the sub-step if nothing touches it
   Vec3 linear{0, 0, 0}, angular{0, 0, 0};
-  bool conveys = false;         ///< its surface moves against it
-  Twist surface;                ///< so, at the center of mass, world axes
-  std::uint32_t led = not_led;  ///< which of those that are led
-  Vec3 rebound_turn{0, 0, 0};   ///< what the rebound of the sub-step turns it by, rad
+  bool conveys = false;         ///< its surface moves relative to it
+  Twist surface;                ///< how its surface moves, at the center of mass, world axes
+  std::uint32_t led = not_led;  ///< its index among the led bodies
+  Vec3 rebound_turn{0, 0, 0};   ///< how far the rebound of the sub-step turns it, rad
   Vec3 drive_impulse{0, 0, 0}, drive_angular_impulse{0, 0, 0};
 };
 

@@ -26,7 +26,7 @@ void SpringRow::begin(SolverBody* body_a, SolverBody* body_b, double h) {
   const Vec3 direction = length > 0 ? Vec3(between / length) : Vec3(0, 0, 0);
   pull = h * stiffness * (length - rest_length) * direction;
   if (rest_length == 0) pull = h * stiffness * between;
-  // Only what draws toward the line of the spring: what turns away from it would not be stable.
+  // Only the part that pulls toward the line of the spring: a force that turns away from it would not be stable.
   const double across = rest_length == 0       ? stiffness
                         : length > rest_length ? stiffness * (1 - rest_length / length)
                                                : 0;

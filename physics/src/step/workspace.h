@@ -29,27 +29,27 @@ struct Start {
   bool led = false;  ///< by a drive whose target moves
 };
 
-/// What came of a contact.
+/// The result of a contact.
 struct Outcome {
   std::uint32_t place = 0;  ///< of its memory
   bool remembered = false;
   bool touched = false, touching = false;  ///< in the step before, and now
-  bool holds = false;                      ///< its manifold may be taken up again
-  bool elsewhere = false;                  ///< its points were found elsewhere than where the step began
-  bool borne = false;                      ///< by a body that does not move
-  double normal = 0;                       ///< N s
-  double approach = 0;                     ///< m/s
-  Vec3 total{0, 0, 0};                     ///< on the second body, N s
+  bool holds = false;                      ///< its manifold may be used again
+  bool elsewhere = false;  ///< its points were found for other positions than those at the start of the step
+  bool borne = false;      ///< carried by a body that does not move
+  double normal = 0;       ///< N s
+  double approach = 0;     ///< m/s
+  Vec3 total{0, 0, 0};     ///< on the second body, N s
 };
 
-/// What a contact is with that moves by nothing but its own will.
+/// What a contact is with, when that body moves only by its own will.
 enum class Obstacle : char { none, solid, surface };
 
 /// Islands that are solved together.
 struct Batch {
   blocks::BlockSolver::Effort effort;
   std::vector<islands::IslandContents> islands;
-  std::size_t size = 0;  ///< contacts of all of them, and a part of their joints
+  std::size_t size = 0;  ///< contacts of all of them, and a share of their joints
 };
 
 struct Solvers {
@@ -64,20 +64,20 @@ struct Solvers {
              const WorldSettings& settings, double dt, std::vector<char>& moved);
 };
 
-/// Room for a step to work in, and what makes the next one quick. Whether it is that of the steps before or begins
-/// empty never changes a bit of what comes out, so that no copy takes it along.
+/// Room for a step to work in, and what makes the next one fast. Whether it is left from earlier steps or starts
+/// empty never changes one bit of the result, so copies do not take it along.
 struct Workspace {
-  double part_count = 1;                 ///< of which length the step is one: the whole step over it
-  bool fresh = true;                     ///< knows nothing of the steps before: the next one looks at every body
-  std::vector<std::uint32_t> noted;      ///< bodies that the caller changed or led, and those that had been
+  double part_count = 1;                 ///< length of the whole step divided by that of this one
+  bool fresh = true;                     ///< knows nothing of earlier steps: the next step looks at every body
+  std::vector<std::uint32_t> noted;      ///< bodies that the caller changed or led, and those noted before them
   std::vector<char> is_noted;            ///< by body
-  std::vector<std::uint32_t> watched;    ///< sorted: what a step looks at, all but scenery at rest
-  std::vector<std::uint32_t> sleepers;   ///< of them
-  std::vector<std::uint32_t> drowsy;     ///< still for long enough themselves
-  std::vector<std::uint32_t> lingering;  ///< to be looked at once more, when it has come to rest
+  std::vector<std::uint32_t> watched;    ///< sorted: what a step looks at, everything but scenery at rest
+  std::vector<std::uint32_t> sleepers;   ///< among the watched
+  std::vector<std::uint32_t> drowsy;     ///< those that have been still long enough themselves
+  std::vector<std::uint32_t> lingering;  ///< to be looked at once more after coming to rest
 
   std::vector<forces::Load> loads;
-  forces::Flight flight;  ///< of this step, where the integrator asks for forces
+  forces::Flight flight;  ///< of this step, if the integrator evaluates forces
   std::vector<SpringRow> stiff_springs;
   std::vector<joints::JointLink> links;
   std::vector<Start> starts;
@@ -86,26 +86,26 @@ struct Workspace {
   contacts::FoundContacts followers;                 ///< contacts that blows of this step will close
   std::vector<contacts::Struck> struck_bodies;       ///< by body
   std::vector<contacts::Link> touching_links;        ///< of `active`
-  std::vector<char> cornered;                        ///< of them: more corners may come down
-  std::vector<contacts::ContactConstraint*> active;  ///< in `found` and `followers`: contacts near something that stirs
+  std::vector<char> cornered;                        ///< by link: more of its corners may come down
+  std::vector<contacts::ContactConstraint*> active;  ///< in `found` and `followers`: contacts near something that moves
   std::vector<std::uint32_t> retained;               ///< memories of contacts between bodies at rest, by pair
   std::vector<std::vector<std::uint32_t>> retained_parts;  ///< of the pairs, in order
   std::vector<std::uint32_t> remembered;
   std::vector<Obstacle> obstacles;               ///< of `active`
   std::vector<Outcome> outcomes;                 ///< of `active`
-  std::vector<pairs::Pair> parted;               ///< of which some part has let go
-  state::LazilyMade<std::vector<Contact>> told;  ///< what the caller is told of the contacts
+  std::vector<pairs::Pair> parted;               ///< those of which some part no longer touches
+  state::LazilyMade<std::vector<Contact>> told;  ///< what the caller sees of the contacts
   std::vector<SensorOverlap> next_overlaps;
   std::vector<collision::Passage> passages;  ///< by body
-  std::vector<std::uint64_t> looked_at;      ///< by body: the look that its passage is of
+  std::vector<std::uint64_t> looked_at;      ///< by body: the look for which its passage was made
   std::uint64_t look = 0;
-  std::vector<std::uint32_t> looked_for;              ///< bodies of which this look needs a passage
+  std::vector<std::uint32_t> looked_for;              ///< bodies whose passage this look needs
   std::vector<contacts::PairMemories> pair_memories;  ///< by pair of the broad phase
   std::vector<contacts::KnownApart> aparts;           ///< of pairs that do not touch, sorted
   std::vector<char> flags;
   std::vector<char> carried;                   ///< by island: something keyed moves it
-  std::vector<std::uint32_t> neighbor_counts;  ///< by body: pairs of what moves by itself
-  std::vector<std::uint32_t> contact_counts;   ///< by body, in a crowd: with others in it
+  std::vector<std::uint32_t> neighbor_counts;  ///< by body: pairs of bodies that move by themselves
+  std::vector<std::uint32_t> contact_counts;   ///< by body in a crowd: contacts with others in it
   std::vector<double> stillness;
   islands::Islands islands;
   islands::IslandSorter island_sorter;
@@ -113,11 +113,11 @@ struct Workspace {
   std::vector<Solvers> solvers;  ///< one for each thread
   std::vector<std::uint32_t> islands_by_size;
   std::vector<char> moved;                          ///< by a solver in this step
-  std::vector<contacts::ContactConstraint> struck;  ///< in this step, by bodies that have left each other since
-  double complementarity = 0;                       ///< how far off it the last step was, where it was solved for, m/s
+  std::vector<contacts::ContactConstraint> struck;  ///< in this step, between bodies that have separated since
+  double complementarity = 0;                       ///< residual of the last step where the solver is `lcp`, m/s
   state::Makeups makeups;                           ///< of the bodies that were added last
-  std::vector<soft::Place> soft_starts;             ///< by body, where there are soft bodies
-  state::LazilyMade<queries::Scene> scene;          ///< of the bodies between two changes
+  std::vector<soft::Place> soft_starts;             ///< by body, if there are soft bodies
+  state::LazilyMade<queries::Scene> scene;          ///< of the bodies, between two changes
 
   void note(std::uint32_t body);  ///< the next step looks at this body
 };

@@ -17,22 +17,22 @@ namespace tweenfall {
 namespace step {
 namespace {
 
-/// Bodies, or contacts, that are worth more than one thread.
+/// Number of bodies, or contacts, that are worth more than one thread.
 constexpr std::size_t worth_sharing = 128;
-/// Contacts of islands that are solved together, and a part of their joints: more of them would not stay in a
-/// processor's nearest memory.
+/// Number of contacts, plus a share of joints, of islands that are solved together: more would not fit into a
+/// processor's nearest cache.
 constexpr std::size_t worth_a_batch = 256;
-/// Contacts of an island that are worth dividing it.
+/// Number of contacts that make an island worth dividing.
 constexpr std::size_t worth_dividing = 256;
 
-/// Whether the points of a contact were found as the bodies lay when the step began.
+/// Whether the points of a contact were found for the positions of the bodies at the start of the step.
 bool found_at_start(const contacts::ContactConstraint& constraint, const Start& b) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(constraint.count); ++i)
     if (constraint.manifold.points[i].position - b.center != constraint.points[i].start_arm_b) return false;
   return true;
 }
 
-/// Whether what is remembered of it must be more than of a single round point.
+/// Whether more must be remembered of it than of a single round point.
 bool needs_more(const contacts::ContactConstraint& constraint, const Outcome& outcome) {
   return constraint.count > 1 || constraint.kept_twist != 0 || outcome.holds;
 }
@@ -41,7 +41,7 @@ bool needs_rare(const contacts::ContactConstraint& constraint, const Outcome& ou
          constraint.kept_rolling != Vec3::Zero() || outcome.elsewhere;
 }
 
-/// There must be room for all of it.
+/// `memories` must have room for all of it.
 void remember(const contacts::ContactConstraint& constraint, const Outcome& outcome, const Start& a, const Start& b,
               state::ContactMemories& memories) {
   using state::ContactMemory;
@@ -57,7 +57,7 @@ void remember(const contacts::ContactConstraint& constraint, const Outcome& outc
   memory.impulse = outcome.normal;
   memory.approach = outcome.approach;
   memory.total_impulse = outcome.total;
-  // A -0 becomes a 0: whether there is room for what is none must not matter.
+  // -0 becomes 0, so that it does not matter whether there is room for a value that is zero.
   state::MoreOfContact* more = memories.more(memory);
   if (more) more->kept_twist = constraint.kept_twist + 0.0;
   state::RareOfContact* rare = memories.rare(memory);
@@ -75,7 +75,7 @@ void remember(const contacts::ContactConstraint& constraint, const Outcome& outc
     point.kept_normal = constraint.points[i].kept_normal;
     point.kept_friction = constraint.points[i].kept_friction;
   }
-  // What was taken up again stays as it was found.
+  // A manifold that was used again stays as it was found.
   if (constraint.kept) return;
   memory.mark(ContactMemory::holds, outcome.holds);
   memory.normal = constraint.manifold.normal;
@@ -177,7 +177,7 @@ void World::Implementation::solve_islands(double dt) {
     solvers[i].many.begin(bodies.size(), part_count);
     solvers[i].complementarity = 0;
   }
-  // The biggest first, so that no thread is left with one at the end; the very big ones by all threads together.
+  // Largest first, so that no thread ends with a large one; all threads share the very large ones.
   const auto size_of = [&](std::uint32_t island) {
     const islands::IslandContents& contents = all[island];
     return contents.contacts.size() + contents.springs.size() + 4 * contents.joints.size();
@@ -270,7 +270,7 @@ void World::Implementation::advance_bodies(double dt) {
   });
 }
 
-/// Fills in what came of the active contacts, and the memories of those that are known already.
+/// Fills in the results of the active contacts, and the memories of those that are already known.
 void World::Implementation::remember_contacts() {
   outcomes.resize(active.size());
   const auto remember = [this](std::size_t k) {
@@ -334,7 +334,7 @@ void World::Implementation::report() {
   parted.clear();
   std::size_t next_retained = 0;
   const auto pair_of = [](const auto& of) { return pairs::Pair(of.a, of.b); };
-  // Between bodies at rest all is as it was, but nothing has begun there.
+  // Between bodies at rest nothing changes, and nothing has begun there.
   const auto keep_before = [&](const pairs::Pair& pair) {
     for (; next_retained < retained.size(); ++next_retained) {
       state::ContactMemory& memory = memories[retained[next_retained]];
@@ -362,7 +362,7 @@ void World::Implementation::report() {
   tell_ended();
 }
 
-/// Bodies that left meanwhile took their contacts along.
+/// Contacts of bodies that were removed went with them.
 void World::Implementation::tell_ended() {
   ended.clear();
   std::swap(ended, gone_contacts);
@@ -370,7 +370,7 @@ void World::Implementation::tell_ended() {
   parted.erase(std::unique(parted.begin(), parted.end()), parted.end());
   const auto pair_of = [](const contacts::ContactConstraint* contact) { return pairs::Pair(contact->a, contact->b); };
   for (const pairs::Pair& pair : parted) {
-    // Of several parts that touched, all must have let go.
+    // If several parts touched, all of them must have separated.
     auto its = std::lower_bound(active.cbegin(), active.cend(), pair,
                                 [&](const auto* contact, const pairs::Pair& than) { return pair_of(contact) < than; });
     bool touching = false;
@@ -382,7 +382,7 @@ void World::Implementation::tell_ended() {
   }
 }
 
-/// Puts together what the caller is told of the contacts of the last step.
+/// Assembles what the caller sees of the contacts of the last step.
 void World::Implementation::tell_contacts(std::vector<Contact>& all) const {
   all.clear();
   for (const std::uint32_t place : memories.sorted()) {
