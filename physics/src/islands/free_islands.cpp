@@ -10,15 +10,15 @@ namespace {
 
 using state::Body;
 
-/// Part of what turns that keeps the equations solvable where no turn about an axis moves anything.
+/// Share of the inertia that keeps the equations solvable if no turn about some axis moves anything.
 constexpr double hardly = 1e-6;
-/// Times that what this leaves out is looked for.
+/// Number of refinements that remove the error of this.
 constexpr int refinements = 4;
-/// Part of the angular momentum that is rounding.
+/// Rounding of the angular momentum, relative.
 constexpr double rounding = 1e-15;
-/// Part of the energy that is.
+/// Rounding of the energy, relative.
 constexpr double rounding_of_energy = 1e-14;
-/// Part of the energy by which it may be raised.
+/// Greatest relative increase of the energy.
 constexpr double little = 0.01;
 
 bool pushed(const contacts::ContactConstraint& contact) {
@@ -33,31 +33,31 @@ bool rubbed(const contacts::ContactConstraint& contact) {
   return contact.total_rolling != Vec3::Zero() || contact.spinning_friction > 0;
 }
 
-/// A ball that no contact turns unless it rubs.
+/// A ball that no contact turns without friction.
 bool slick(const Body& body) {
   return body.spherical() && std::holds_alternative<Sphere>(body.shape().solid) && body.mass().center == Vec3::Zero();
 }
 
-/// Whether a load changes the momentum of bodies against each other.
+/// Whether a load changes the momentum of bodies relative to each other.
 bool disturbs(const forces::Load& load, const Vec3& acceleration) {
   return load.acceleration != acceleration || load.end_acceleration != acceleration || load.torque != Vec3::Zero() ||
          load.drag > 0 || load.angular_drag > 0 || load.angular_damping > 0;
 }
 
-/// Whether what a joint does to one end it takes from the other; what reaches the world by a housing or a pulley does
-/// not.
+/// Whether a joint takes from one end what it gives to the other; what reaches the world by a housing or a pulley does
+/// not count.
 bool between_bodies(const joints::JointLink& link) {
   const JointKind& kind = link.joint->settings.kind;
   return link.a != joints::JointLink::world && !std::holds_alternative<GearJoint>(kind) &&
          !std::holds_alternative<PulleyJoint>(kind);
 }
 
-/// Angular momentum about the common center of mass and energy besides that of the center, but for spins that nothing
-/// changed.
+/// Angular momentum about the common center of mass, and energy without that of the center, except for spins that
+/// nothing changed.
 struct Whole {
   double mass = 0;
   Vec3 center{0, 0, 0}, velocity{0, 0, 0}, momentum{0, 0, 0};
-  double size = 0;  ///< of the parts of the momentum
+  double size = 0;  ///< size of the terms of the momentum
   double energy = 0;
 };
 
@@ -77,7 +77,7 @@ bool FreeIslands::gather(const IslandContents& island, const std::vector<Body>& 
     }
     return slots_[index];
   };
-  // Also what only moved them apart counts, and leaves no impulse.
+  // Contacts that only pushed bodies apart count too, although they leave no impulse.
   const auto joins = [&](const contacts::ContactConstraint& contact) {
     return pushed(contact) || (moved[contact.a] != 0 && moved[contact.b] != 0);
   };
@@ -86,7 +86,7 @@ bool FreeIslands::gather(const IslandContents& island, const std::vector<Body>& 
     return moved[index] == 0 || body.drive.owner() == Owner::driven || body.conveys ||
            disturbs(loads[index], loads[other].acceleration);
   };
-  // What did nothing left at least one of its ends alone.
+  // A joint that did nothing left at least one of its ends alone.
   const auto acted = [&](const joints::JointLink& link) {
     const auto has_moved = [&](std::uint32_t end) {
       return end == joints::JointLink::world || bodies[end].immovable() || moved[end] != 0;
@@ -182,7 +182,7 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
       body.center += astray;
       body.follow_center(body.motion.pose.rotation);
     }
-  // A blow is worth the energy that it had where the solver left the center, which may be lower than here.
+  // A blow counts with the energy that it had where the solver left the center, which may be lower than here.
   const bool jointed = std::any_of(group.begin(), group.end(), [](const Member& member) { return member.jointed; });
   const double gained =
       jointed || after.energy <= (1 + rounding_of_energy) * before.energy ? 0 : after.energy - before.energy;
@@ -204,7 +204,7 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
     for (int i = 0; i < refinements; ++i) turn += inverse * (momentum - inertia * turn);
     return turn;
   };
-  // What they do besides turning as a whole has no angular momentum, and gives the energy.
+  // Their motion besides the common turn has no angular momentum, and supplies the energy.
   const Vec3 turned = turning(after.momentum), wanted = turning(before.momentum);
   const auto besides = [&](const Member& member) -> Twist {
     const Body& body = bodies[member.index];
@@ -219,7 +219,7 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
       energy += 0.5 * twist.angular.dot(body.world_inertia(body.motion.pose.rotation) * twist.angular);
   }
   const double needed = 0.5 * (wanted.dot(before.momentum) - turned.dot(after.momentum)) + gained;
-  // Where little goes on besides it is not worth as much.
+  // If there is little such motion, it cannot supply as much.
   const double share =
       needed > 0 || -needed < little * energy ? std::sqrt(std::max(0.0, 1 - needed / std::max(energy, needed))) : 1;
   Mat3 own = Mat3::Zero();
@@ -230,7 +230,7 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
     body.twist.angular = member.gripped ? Vec3(wanted + share * twist.angular) : member.start.twist.angular;
     own += body.world_inertia(body.motion.pose.rotation);
   }
-  // Balls in a row cannot turn about it as a whole: what is left, each turns by itself.
+  // Balls in a row cannot turn about the row as a whole: each turns by itself to make up what is left.
   const Vec3 left = own.inverse() * (before.momentum - whole_of(now).momentum);
   for (const Member& member : group) {
     Body& body = bodies[member.index];

@@ -16,14 +16,14 @@ struct FreeStart {
   Twist twist;
 };
 
-/// Bodies that have pushed, or hold by joints, only each other in a step keep their angular momentum. Impulses act
-/// where the bodies lay when the contact was found, joints hold but to what is left of their gaps, and the bodies go on
-/// from there while the impulses are being found: what that leaves open is given back to all of them together as a turn
-/// about their common center of mass, which no contact feels, and the energy for it is taken from what they do besides.
-/// And that center goes where their momentum takes it; contacts alone give them no energy besides that of the center.
+/// Bodies that push, or hold by joints, only each other in a step keep their angular momentum. But impulses act where
+/// the bodies were when the contact was found, joints hold only up to their remaining gaps, and the bodies move on
+/// while the impulses are being computed: the error this leaves is given back to all of them together as a turn about
+/// their common center of mass, which no contact feels, and its energy is taken from their other motion. That center
+/// moves as their momentum says; contacts alone add no energy to the motion relative to it.
 class FreeIslands {
  public:
-  /// Before the bodies of a step.
+  /// Call it before the bodies of a step.
   void begin(std::size_t bodies) { slots_.resize(bodies, nobody); }
   /// @param moved  by index: set for the bodies that the solver moved
   /// @param start_of  a FreeStart by index
@@ -54,7 +54,7 @@ class FreeIslands {
 
   std::vector<std::uint32_t> slots_;  ///< from a body's index into members_
   std::vector<Member> members_, group_;
-  Islands groups_;  ///< of members_: what pushed each other
+  Islands groups_;  ///< of members_: those that pushed each other
 };
 
 }  // namespace tweenfall::islands

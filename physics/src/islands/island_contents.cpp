@@ -4,7 +4,7 @@
 
 namespace tweenfall::islands {
 
-/// By counting, for an island has the number of one of its bodies.
+/// Counting sort, since an island has the index of one of its bodies.
 void IslandSorter::sort_by_island(std::size_t bodies, std::vector<Entry>& entries) {
   const auto by_island = [](const Entry& left, const Entry& right) { return left.island < right.island; };
   if (std::is_sorted(entries.begin(), entries.end(), by_island)) return;

@@ -11,18 +11,18 @@
 
 namespace tweenfall::islands {
 
-/// What holds the bodies of one island together. Islands share only bodies that nothing moves, so that what one does
-/// depends on no other.
+/// What holds the bodies of one island together. Islands share only bodies that nothing moves, so that they
+/// do not depend on each other.
 struct IslandContents {
   std::span<contacts::ContactConstraint* const> contacts;  ///< by pair
   std::span<step::SpringRow* const> springs;
   std::span<joints::JointLink* const> joints;
 };
 
-/// Sorts contacts, stiff springs and joints by islands.
+/// Sorts contacts, stiff springs and joints by island.
 class IslandSorter {
  public:
-  /// By the smallest index of a movable body; what is returned refers to the arguments and to this.
+  /// In order of the smallest index of a movable body; the result refers to the arguments and to this.
   const std::vector<IslandContents>& sort(const std::vector<state::Body>& bodies, Islands& islands,
                                           std::span<contacts::ContactConstraint* const> contacts,
                                           std::vector<step::SpringRow>& springs, std::vector<joints::JointLink>& links);

@@ -7,14 +7,14 @@ namespace tweenfall::islands {
 
 namespace {
 
-/// Contacts that are worth a part of their own.
+/// Number of contacts that are worth a task of their own.
 constexpr std::size_t worth_a_part = 128;
 
 }  // namespace
 
 std::uint32_t IslandDepth::of(std::span<contacts::ContactConstraint* const> contacts,
                               const std::vector<state::Body>& bodies, const threads::Workers& workers) {
-  // Contacts are sorted by their bodies, which mostly were added from the bottom to the top or the other way around.
+  // Contacts are sorted by their bodies, which were mostly added from bottom to top or the other way around.
   constexpr int most_passes = 12;
   constexpr std::uint32_t nobody = 0xfffffffe;  // one more is bottomless, and no more than that
   levels_.resize(bodies.size());
@@ -25,7 +25,7 @@ std::uint32_t IslandDepth::of(std::span<contacts::ContactConstraint* const> cont
       const state::Body &a = bodies[contacts[i]->a], &b = bodies[contacts[i]->b];
       const auto stands = [](const state::Body& body) { return body.immovable() || body.asleep; };
       ends_[i] = {contacts[i]->a, contacts[i]->b, stands(a), stands(b)};
-      // What is pushed or taken along is so from the side, however near the floor is.
+      // Bodies may be pushed or dragged from the side, however near the floor is.
       if (a.displaces() || a.conveys || b.displaces() || b.conveys) sideways.store(true, std::memory_order_relaxed);
     }
   });

@@ -10,10 +10,10 @@
 
 namespace tweenfall::islands {
 
-/// Over how many contacts, one upon the other, what lies highest on an island is carried; 0 when nothing carries it.
+/// Over how many contacts, one on top of the other, the highest body of an island is carried; 0 if nothing carries it.
 class IslandDepth {
  public:
-  /// Something pushes it, or it is not worth finding out: as deep as any.
+  /// Something pushes the island, or finding out is not worth while: as deep as any.
   static constexpr std::uint32_t bottomless = 0xffffffff;
 
   [[nodiscard]] std::uint32_t of(std::span<contacts::ContactConstraint* const> contacts,
@@ -25,7 +25,7 @@ class IslandDepth {
     bool a_stands, b_stands;
   };
   std::vector<Ends> ends_;             ///< of the contacts
-  std::vector<std::uint32_t> levels_;  ///< by body; only of what the contacts touch
+  std::vector<std::uint32_t> levels_;  ///< by body; only of bodies that the contacts touch
 };
 
 }  // namespace tweenfall::islands

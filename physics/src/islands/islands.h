@@ -11,7 +11,7 @@ class Islands {
   void reset(std::size_t count);
   void join(std::uint32_t a, std::uint32_t b);
   [[nodiscard]] std::uint32_t of(std::uint32_t body);  ///< the smallest index of its island
-  /// The same, by several threads at once.
+  /// The same, for several threads at once.
   [[nodiscard]] std::uint32_t root(std::uint32_t body) const {
     while (parent_[body] != body) body = parent_[body];
     return body;

@@ -15,20 +15,20 @@ using state::Body;
 
 namespace {
 
-/// Part of the speed of what leads with which a contact still closes that nothing could satisfy: in a row it is shared
-/// out among all of them.
+/// A contact that cannot be satisfied still closes with at least this part of the leading speed: in a row the speed is
+/// shared among all contacts.
 constexpr double unsatisfied = 0.02;
 /// A blow that springs back gives twice the momentum that there was.
 constexpr double beyond_blows = 3;
 
-/// What goes on in an island.
+/// Speeds and momenta in an island.
 struct Pinch {
   double leading = 0;   ///< fastest of the points that are led, m/s
-  double fastest = 0;   ///< of all centers before the step, and of what forces made of them, m/s
-  double spinning = 0;  ///< of all that turned about them, m/s
-  double momentum = 0;  ///< of all that meets in contacts, at these speeds and by what drives pull, N s
-  double closing = 0;   ///< fastest of what presses, m/s
-  double depth = 0;     ///< of what presses, deepest, m
+  double fastest = 0;   ///< of all centers before the step, including what forces added, m/s
+  double spinning = 0;  ///< fastest surface speed from the bodies' spins, m/s
+  double momentum = 0;  ///< of all bodies in contacts, at these speeds, plus the pull of drives, N s
+  double closing = 0;   ///< fastest of the pressing contacts, m/s
+  double depth = 0;     ///< deepest of the pressing contacts, m
 };
 
 std::span<PointConstraint> points_of(ContactConstraint& contact) {
@@ -112,7 +112,7 @@ void tame_pinched(const IslandContents& island, std::vector<Body>& bodies, const
                   const WorldSettings& settings, double dt,
                   const std::function<const Twist&(std::uint32_t)>& start_of) {
   const Pinch pinch = pinch_of(island, bodies, loads, settings, dt, start_of);
-  // What holds may well bear more: a lever, or what a motor presses.
+  // What holds it may well bear more: a lever, or something that a motor presses.
   const double deep = step::soft_contacts(settings.push_out_speed, dt, step::Solver::usual_sub_steps).deep();
   const bool holds = pinch.leading > 0 ? !(pinch.closing > unsatisfied * pinch.leading || pinch.depth > deep)
                                        : !island.joints.empty() || !island.springs.empty();

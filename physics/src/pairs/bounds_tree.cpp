@@ -44,7 +44,7 @@ void BoundsTree::set(std::uint32_t item, const Bounds& bounds) {
   ++changes_;
   const std::uint32_t parent = nodes_[leaf].parent;
   if (parent == none) return;
-  // A box that has left its neighbors would make theirs grow without end.
+  // A box that has left its neighbors would make their boxes grow without end.
   if (overlap(nodes_[parent].bounds, bounds)) {
     fit(parent);
     return;
@@ -84,7 +84,7 @@ std::size_t BoundsTree::link(std::uint32_t leaf) {
     const Bounds &left = nodes_[node.left].bounds, &right = nodes_[node.right].bounds;
     const double left_growth = extent(united(left, bounds)) - extent(left);
     const double right_growth = extent(united(right, bounds)) - extent(right);
-    // Where both would do, the number decides, so that thousands at one place do not all go one way.
+    // If both are equally good, the number decides, so that thousands at one place do not all go one way.
     const bool go_left =
         left_growth != right_growth ? left_growth < right_growth : (nodes_[leaf].item >> (depth % 32) & 1u) == 0;
     beside = go_left ? node.left : node.right;
@@ -124,7 +124,7 @@ void BoundsTree::unlink(std::uint32_t leaf) {
 }
 
 void BoundsTree::settle() {
-  // Taken in one by one, very many would take longer and end in a worse tree.
+  // Inserting very many one by one would take longer and end in a worse tree.
   bool again = fresh_.size() > 16 + size_ / 8 || changes_ > 64 + 16 * size_;
   for (std::size_t i = 0; i < fresh_.size() && !again; ++i) {
     const std::uint32_t item = fresh_[i];

@@ -20,25 +20,25 @@ namespace tweenfall::pairs {
          inner.high.y() <= outer.high.y() && outer.low.z() <= inner.low.z() && inner.high.z() <= outer.high.z();
 }
 
-/// Boxes of items, which are small numbers, kept from step to step in a binary tree of boxes. What a visit tells never
-/// depends on the shape of the tree, only the time that it takes.
+/// Boxes of items, which are small numbers, kept from step to step in a binary tree of boxes. The shape of the tree
+/// never affects what a visit finds, only the time it takes.
 class BoundsTree {
  public:
-  /// Adds the item or gives it another box; finite. Not seen by visits before `settle`.
+  /// Adds the item or gives it another box, which must be finite. Visits do not see the change before `settle`.
   void set(std::uint32_t item, const Bounds& bounds);
   void remove(std::uint32_t item);
   [[nodiscard]] bool has(std::uint32_t item) const { return item < leaves_.size() && leaves_[item] != none; }
   [[nodiscard]] const Bounds& of(std::uint32_t item) const { return nodes_[leaves_[item]].bounds; }
-  /// It will be asked for this item soon.
+  /// Prefetches this item.
   void fetch(std::uint32_t item) const {
     if (has(item)) state::fetch(&nodes_[leaves_[item]]);
   }
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// Takes in what is new, and builds the tree again when it has changed too much to be good.
+  /// Inserts what is new, and rebuilds the tree when too many changes have made it bad.
   void settle();
 
-  /// Calls `see(item)` for every item whose box meets `within`, in no order that means anything.
+  /// Calls `see(item)` for every item whose box meets `within`, in no particular order.
   template <class See>
   void visit(const Bounds& within, const See& see) const {
     walk(within, see, [](std::uint32_t) { return true; });
@@ -51,14 +51,14 @@ class BoundsTree {
   }
 
   /// Calls `see(item)` for every item in boxes for which `enters(box)`, which may become false for boxes that were
-  /// entered before; of two branches first for the one that lies before the other along a direction.
+  /// entered before; of two branches, the one that lies first along a direction comes first.
   template <class Enters, class See>
   void visit_along(const Vec3& direction, const Enters& enters, const See& see) const {
     walk_boxes(enters, see, [&](const Bounds& left, const Bounds& right) {
       return direction.dot(right.low - left.low) + direction.dot(right.high - left.high) >= 0;
     });
   }
-  /// The same, of two branches first for that which is nearer to a point.
+  /// The same, but of two branches the one nearer to a point comes first.
   template <class Enters, class See>
   void visit_near(const Vec3& point, const Enters& enters, const See& see) const {
     const auto away = [&](const Bounds& box) {
@@ -67,7 +67,7 @@ class BoundsTree {
     walk_boxes(enters, see, [&](const Bounds& left, const Bounds& right) { return away(left) <= away(right); });
   }
 
-  /// Closed items are passed by, in whole branches where all are, by `visit_open`.
+  /// `visit_open` skips closed items, and whole branches where all are closed.
   void open_all() { closed_.assign(nodes_.size(), 0); }
   void close(std::uint32_t item);
   template <class See>
@@ -81,7 +81,7 @@ class BoundsTree {
 
   struct alignas(64) Node {
     Bounds bounds{Vec3::Zero(), Vec3::Zero()};
-    std::uint32_t left = none, right = none;  ///< of a leaf: none
+    std::uint32_t left = none, right = none;  ///< of a leaf: `none`
     std::uint32_t parent = none;
     std::uint32_t item = none;  ///< of a leaf
   };
@@ -126,9 +126,9 @@ class BoundsTree {
 
   [[nodiscard]] bool linked(std::uint32_t leaf) const { return leaf == root_ || nodes_[leaf].parent != none; }
   std::uint32_t take_node();
-  std::size_t link(std::uint32_t leaf);  ///< @returns how deep it is now
+  std::size_t link(std::uint32_t leaf);  ///< @returns its depth now
   void unlink(std::uint32_t leaf);
-  void fit(std::uint32_t node);  ///< it and what is above it
+  void fit(std::uint32_t node);  ///< fits its box and those above it
   void rebuild();
   std::uint32_t build(std::size_t begin, std::size_t end, std::uint32_t parent);
 
@@ -138,11 +138,11 @@ class BoundsTree {
   };
 
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> unused_;  ///< of nodes_
+  std::vector<std::uint32_t> unused_;  ///< in nodes_
   std::vector<std::uint32_t> leaves_;  ///< by item
   std::vector<std::uint32_t> fresh_;   ///< items that visits do not see yet
   std::vector<char> closed_;           ///< by node
-  std::vector<Planted> planted_;       ///< room for `rebuild`
+  std::vector<Planted> planted_;       ///< working memory of `rebuild`
   std::vector<Node> before_;           ///< the tree that `rebuild` replaces
   std::uint32_t root_ = none;
   std::size_t size_ = 0;

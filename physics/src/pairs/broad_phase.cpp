@@ -13,33 +13,33 @@ using state::Body;
 
 namespace {
 
-/// Room to spare, in parts of a box's smallest side.
+/// How much boxes are enlarged, in parts of their smallest side.
 constexpr double spare = 0.05;
-/// A box that is larger than what is needed by more than this has outlived a motion.
+/// A box that exceeds what is needed by more than this factor is left from an earlier motion.
 constexpr double outgrown = 2;
-/// Steps for which a box has room, at most.
+/// Greatest number of steps for which a box has room.
 constexpr std::uint8_t longest_foresight = 16;
-/// So few neighbors let a box reach farther ahead; so many make it draw back.
+/// With so few neighbors a box reaches farther ahead; with so many it draws back.
 constexpr std::size_t few_neighbors = 6, many_neighbors = 16;
-/// More pairs of boxes than this for each body are a crowd.
+/// More pairs of boxes per body than this are a crowd.
 constexpr std::size_t kept_in_crowd = 64, found_in_crowd = 16;
 /// Searches may find a pair in several cells.
 constexpr std::size_t found_once_more = 16;
-/// Bodies that are worth a part of their own.
+/// Number of bodies that are worth a task of their own.
 constexpr std::size_t worth_a_part = 128, worth_a_look = 32;
-/// And pairs.
+/// The same for pairs.
 constexpr std::size_t worth_merging = 1024;
-/// Boxes end here: a difference of any two is still a number.
+/// Boxes end here: the difference of any two is still a finite number.
 constexpr double end_of_space = 1e100;
 
-/// With room to spare, and for where the body goes next.
+/// Enlarged, and reaching where the body goes next.
 Bounds with_room(const Bounds& swept, const Vec3& travel, int foresight) {
   const Vec3 around = Vec3::Constant(spare * (swept.high - swept.low).minCoeff());
   const Vec3 ahead = travel * foresight;
   return {swept.low + ahead.cwiseMin(0.0) - around, swept.high + ahead.cwiseMax(0.0) + around};
 }
 
-/// What is no number reaches everywhere.
+/// Bounds that are not numbers reach everywhere.
 Bounds in_space(const Bounds& bounds) {
   Bounds result;
   for (int i = 0; i < 3; ++i) {
@@ -67,7 +67,7 @@ void BroadPhase::remove(std::uint32_t index) {
 }
 
 void BroadPhase::look_again(std::uint32_t index) {
-  // Of planes, and of bodies that no step has seen, nothing is kept.
+  // Nothing is kept of planes, and of bodies that no step has seen.
   if (index < entries_.size() && (entries_[index].kind == Kind::movable || entries_[index].kind == Kind::immovable))
     renew(index);
 }
@@ -82,7 +82,7 @@ BroadPhase::Look BroadPhase::look_at(const Body& body, std::uint32_t index, cons
                                      double dt) {
   Entry& entry = entries_[index];
   Look look;
-  // What may meet nobody needs no box.
+  // A body that may meet nothing needs no box.
   if (body.sensor() || body.groups() == 0 || body.collides_with() == 0) return look;
   look.kind = std::isinf(body.radius()) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
   entry.stirs = body.stirs();
@@ -107,7 +107,7 @@ void BroadPhase::follow(const Look& look, std::uint32_t index) {
   Entry& entry = entries_[index];
   entry.kind = look.kind;
   if (look.kind == Kind::none || look.kind == Kind::plane || !look.leaves) return;
-  // Not all for the same number of steps, so that bodies that fall alike do not leave their boxes all at once.
+  // The number of steps varies, so that bodies that fall alike do not leave their boxes all at once.
   const int ahead = entry.foresight - static_cast<int>(index % (entry.foresight / 2 + 1u));
   tree_of(look.kind).set(index, look.still ? entry.swept : in_space(with_room(entry.swept, look.travel, ahead)));
   renew(index);
@@ -121,7 +121,7 @@ bool BroadPhase::look_around(std::uint32_t index, const PairFilter& filter, std:
   std::size_t neighbors = 0;
   const auto see = [&](std::uint32_t other) {
     ++neighbors;
-    // Of two that are renewed the smaller one finds the pair.
+    // Of two renewed bodies, the one with the smaller index finds the pair.
     if (other == index || (entries_[other].renewed && other < index) || fresh.size() >= most) return;
     if (!filter.lets(index, other)) return;
     fresh.emplace_back(std::min(index, other), std::max(index, other));
@@ -136,7 +136,7 @@ bool BroadPhase::look_around(std::uint32_t index, const PairFilter& filter, std:
   return before + neighbors < most;
 }
 
-/// Brings `kept_` up to date, or finds that there are too many.
+/// Brings `kept_` up to date, or finds that there are too many pairs to keep.
 void BroadPhase::keep_pairs(const PairFilter& filter, const threads::Workers& work) {
   const std::size_t most = 4096 + kept_in_crowd * movable_.size();
   fresh_parts_.resize(std::max(fresh_parts_.size(), work.range_count(renewed_.size(), worth_a_look)));
@@ -160,8 +160,8 @@ void BroadPhase::keep_pairs(const PairFilter& filter, const threads::Workers& wo
   renewed_.clear();
 }
 
-/// Takes what is found anew of renewed bodies in place of what was kept of them. All that begins with bodies of one
-/// range comes together in one part.
+/// Replaces what was kept of renewed bodies by the pairs found for them. All pairs whose first body is in one range are
+/// merged in one part.
 void BroadPhase::merge_fresh(std::size_t count, const threads::Workers& work) {
   const std::size_t parts = std::max<std::size_t>(1, work.range_count(kept_.size() + count, worth_merging));
   merged_parts_.resize(std::max(merged_parts_.size(), parts));
@@ -200,7 +200,7 @@ bool BroadPhase::both_move(std::uint32_t a, std::uint32_t b) const {
   return entries_[a].kind == Kind::movable && entries_[b].kind == Kind::movable;
 }
 
-/// Of two that may meet and both have many neighbors: whether they do not have enough such pairs already.
+/// For two that may meet and both have many neighbors: whether either still has too few such pairs.
 bool BroadPhase::counts(std::uint32_t a, std::uint32_t b) {
   if (neighbor_counts_[a] < most_pairs || neighbor_counts_[b] < most_pairs || !both_move(a, b)) return true;
   std::uint32_t &first = pair_counts_[a], &second = pair_counts_[b];
@@ -210,7 +210,7 @@ bool BroadPhase::counts(std::uint32_t a, std::uint32_t b) {
   return true;
 }
 
-/// Leaves out of `pairs_` what is too many.
+/// Removes the excess pairs from `pairs_`.
 void BroadPhase::count_out() {
   bool many = false;
   for (const auto& [a, b] : pairs_) {
@@ -250,7 +250,7 @@ bool BroadPhase::choose_by(PairSearch search, const PairFilter& filter) {
   return true;
 }
 
-/// How many that move it may meet, counted as far as it matters.
+/// How many moving bodies it may meet, counted no further than it matters.
 std::uint32_t BroadPhase::count_neighbors(std::uint32_t index, const PairFilter& filter) const {
   std::uint32_t count = 0;
   movable_.visit_while(
@@ -261,7 +261,7 @@ std::uint32_t BroadPhase::count_neighbors(std::uint32_t index, const PairFilter&
   return count;
 }
 
-/// The same pairs without any that are kept. Of those that have enough, only such are looked for that have not.
+/// The same pairs without keeping any. Bodies that have enough pairs only get those with bodies that have too few.
 void BroadPhase::choose_in_crowd(std::span<const std::uint32_t> changed, const PairFilter& filter) {
   for (const std::uint32_t index : changed)
     if (entries_[index].kind == Kind::movable) neighbor_counts_[index] = count_neighbors(index, filter);
@@ -346,7 +346,7 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::
     if (!choose_by(search, filter)) choose_in_crowd(changed, filter);
   } else if (crowded_) {
     choose_in_crowd(changed, filter);
-    // It has thinned out: the next step keeps pairs again, and begins with none.
+    // The crowd has thinned out: the next step keeps pairs again, starting with none.
     if (pairs_.size() <= found_in_crowd * movable_.size()) {
       crowded_ = false;
       kept_.clear();

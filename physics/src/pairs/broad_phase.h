@@ -14,30 +14,30 @@ namespace tweenfall::pairs {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< indices, smaller first
 
-/// Finds which bodies may meet within a step. Each has a box with room to spare in a tree; the pairs of boxes that meet
-/// are kept from step to step, and looked for again only around what has left its box.
+/// Finds which bodies may meet within a step. A tree holds an enlarged box for each; the pairs of boxes that meet
+/// are kept from step to step, and searched for again only around bodies that have left their box.
 class BroadPhase {
  public:
-  /// Of bodies that move by themselves and may meet so many such bodies, two that both have so many pairs among
-  /// themselves already are no pair: thousands at one place part all the same. What is large and bears many small ones
-  /// is no crowd: each of those meets few.
+  /// Limit for crowds: if two bodies that move by themselves may each meet at least this many such bodies, and both
+  /// already have this many pairs among such bodies, they do not become a pair; even thousands at one place still
+  /// separate. A large body that carries many small ones is no crowd: each of those meets few.
   static constexpr std::uint32_t most_pairs = 128;
 
-  /// Pairs, sorted, that may meet and whose swept bounds overlap, of which at least one moves by itself and at least
+  /// Sorted pairs that may meet and whose swept bounds overlap, of which at least one moves by itself and at least
   /// one stirs.
-  /// @param changed  sorted: all bodies that move by themselves, and all others that were added, moved or handed over,
-  /// or had or have a target, or were told whom they may meet, since they were last given
+  /// @param changed  sorted: all bodies that move by themselves, and all others that since the last call were added,
+  /// moved or handed over, had or have a target, or got another filter
   /// @param margin  pairs with a gap up to this count too, m
-  /// @param search  the same pairs by another way
+  /// @param search  another way to find the same pairs
   const std::vector<Pair>& find(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
                                 const std::vector<forces::Load>& loads, const PairFilter& filter, double margin,
                                 double dt, const threads::Workers& work = {}, PairSearch search = {});
   void remove(std::uint32_t body);
-  /// The box of a body, with room to spare; null for one that has none yet, or a plane.
+  /// The enlarged box of a body; null for a body that has none yet, or a plane.
   [[nodiscard]] const Bounds* box(std::uint32_t body) const {
     return movable_.has(body) ? &movable_.of(body) : immovable_.has(body) ? &immovable_.of(body) : nullptr;
   }
-  /// Looks for all pairs of the body anew: whom it may meet has changed.
+  /// Searches for all pairs of the body again, when the bodies it may meet have changed.
   void look_again(std::uint32_t body);
 
  private:
@@ -45,13 +45,13 @@ class BroadPhase {
   struct Entry {
     Bounds swept{Vec3::Zero(), Vec3::Zero()};
     Kind kind = Kind::none;
-    bool stirs = false;          ///< awake and movable, keyed and on its way, or newly placed
-    bool displaces = false;      ///< keyed and on its way
-    bool renewed = false;        ///< has another box than when pairs were last looked for
+    bool stirs = false;          ///< awake and movable, keyed and moving, or newly placed
+    bool displaces = false;      ///< keyed and moving
+    bool renewed = false;        ///< has another box than when pairs were last searched for
     std::uint8_t foresight = 4;  ///< steps for which its box has room
   };
 
-  /// A body that is looked at: where it may be, before any box is changed.
+  /// Where a body may be, found before any box is changed.
   struct Look {
     Kind kind = Kind::none;
     bool leaves = true;  ///< needs another box
@@ -78,16 +78,16 @@ class BroadPhase {
   void add_planes(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
                   const PairFilter& filter, double margin);
 
-  std::vector<Entry> entries_;                  ///< by body
-  std::vector<std::uint32_t> pair_counts_;      ///< by body: found so far among those with many neighbors
-  std::vector<std::uint32_t> neighbor_counts_;  ///< by body that moves: of those that move
-  std::vector<Look> looks_;                     ///< at those that have changed
+  std::vector<Entry> entries_;              ///< by body
+  std::vector<std::uint32_t> pair_counts_;  ///< by body: pairs found so far with other bodies that have many neighbors
+  std::vector<std::uint32_t> neighbor_counts_;  ///< by moving body: how many moving bodies are near
+  std::vector<Look> looks_;                     ///< at the bodies that have changed
   BoundsTree movable_, immovable_;
   std::vector<std::uint32_t> planes_;
   std::vector<std::uint32_t> renewed_;
-  std::vector<Pair> kept_;  ///< whose boxes with room to spare meet, sorted; of no use in a crowd
+  std::vector<Pair> kept_;  ///< pairs whose enlarged boxes meet, sorted; unused in a crowd
   std::vector<Pair> fresh_, merged_;
-  std::vector<std::vector<Pair>> fresh_parts_;  ///< of what is renewed
+  std::vector<std::vector<Pair>> fresh_parts_;  ///< of renewed bodies
   struct MergedPart {
     std::vector<Pair> fresh, all;
   };

@@ -13,7 +13,7 @@ std::size_t reduce_to_four(std::span<ContactCandidate> candidates, const Vec3& n
       if (score(candidates[i]) > score(candidates[best]) + 1e-9) best = i;
     return candidates[best];
   };
-  // Equal depths differ by rounding only: the place decides between them.
+  // Equal depths differ only by rounding: the position decides between them.
   chosen[0] = pick([&](const ContactCandidate& c) { return -c.gap + 1e-3 * leaning.dot(c.position); });
   chosen[1] = pick([&](const ContactCandidate& c) { return (c.position - chosen[0].position).squaredNorm(); });
   const Vec3 side = normal.cross(chosen[1].position - chosen[0].position);

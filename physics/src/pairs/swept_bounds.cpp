@@ -7,7 +7,7 @@ namespace tweenfall::pairs {
 
 namespace {
 
-/// Of a body's radius, how far it is looked for behind it at most.
+/// Part of a body's radius by which its box reaches back behind it, at most.
 constexpr double thrown_back = 0.1;
 
 }  // namespace
@@ -20,7 +20,7 @@ Vec3 travel(const state::Body& body, const forces::Load& load, double dt) {
 }
 
 Bounds swept_bounds(const state::Body& body, const forces::Load& load, double room, double dt) {
-  // A ball's shape need not be looked at.
+  // The shape of a ball need not be read.
   const bool ball = body.makeup->roundness == body.radius() && !body.immovable();
   const Vec3 reach = Vec3::Constant(body.radius());
   Bounds swept = ball ? Bounds{body.center - reach, body.center + reach} : bounds(body.shape(), body.motion.pose);
@@ -31,19 +31,19 @@ Bounds swept_bounds(const state::Body& body, const forces::Load& load, double ro
       const Bounds end = bounds(body.shape(), body.target().pose);
       swept.low = swept.low.cwiseMin(end.low);
       swept.high = swept.high.cwiseMax(end.high);
-      // Between its ends an arc bulges out over both.
+      // Between its ends, an arc bulges out over both.
       const double cosine = std::abs(body.target().pose.rotation.dot(body.motion.pose.rotation));
       swing = body.radius() * (1 - std::min(1.0, cosine));
     }
   } else if (!body.asleep) {
     const Twist& twist = body.drive.owner() == Owner::driven ? load.pulled : body.twist;
     way = twist.linear * dt;
-    // A ball turns in its place.
+    // A ball turns in place.
     if (!ball) swing = std::min(twist.angular.norm() * dt, 2.0) * body.radius();
     swing += load.acceleration.norm() * dt * dt;
   }
   const Vec3 around = Vec3::Constant(room + swing);
-  // What comes from behind may throw it back as far.
+  // A body that hits it from behind may throw it back that far.
   const double most = thrown_back * body.radius();
   swept.low += way.cwiseMin(0.0).cwiseMin((-way).cwiseMax(-most)) - around;
   swept.high += way.cwiseMax(0.0).cwiseMax((-way).cwiseMin(most)) + around;

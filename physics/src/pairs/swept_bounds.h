@@ -4,11 +4,11 @@
 
 namespace tweenfall::pairs {
 
-/// The box that a body cannot leave within a step of `dt` when nothing touches it, and `room` around it. Not for
+/// The box that a body cannot leave within a step of `dt` when nothing touches it, enlarged by `room`. Not for
 /// planes.
 [[nodiscard]] Bounds swept_bounds(const state::Body& body, const forces::Load& load, double room, double dt);
 
-/// How far it goes meanwhile, for what comes after the step.
+/// How far it travels in that time, to predict what comes after the step.
 [[nodiscard]] Vec3 travel(const state::Body& body, const forces::Load& load, double dt);
 
 }  // namespace tweenfall::pairs

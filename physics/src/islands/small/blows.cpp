@@ -10,9 +10,9 @@
 #include "state/world_data.h"
 #include "step/solver.h"
 
-/// Small islands in which something that is struck strikes on: the step is cut where bodies meet, and there each blow
-/// is that of two bodies alone, the hardest first, for as long as any two still close. A row of balls that touch so
-/// hands a blow on as one whose balls stand apart.
+/// Small islands in which a body that is struck strikes another: the step is cut where bodies meet, and there each blow
+/// is between two bodies alone, the hardest first, as long as any two still close. So a row of touching balls
+/// passes a blow on like one whose balls stand apart.
 
 namespace tweenfall {
 
@@ -22,22 +22,22 @@ namespace {
 using contacts::ContactConstraint;
 using state::Body;
 
-/// Restitution of which blows that are handed on hardly matter, but for so many contacts.
+/// Below this restitution, blows that are passed on hardly matter, except in islands with so many contacts.
 constexpr double dull = 0.25;
 constexpr std::size_t many = 5;
 constexpr std::size_t most_contacts_of_blows = 24;
 /// What meets within this part of a step meets now.
 constexpr double soon = 1e-6;
-/// In shorter steps than this what trembles is no faster than in such a one, s.
+/// In shorter steps than this, jitter is no faster than in a step of this length, s.
 constexpr double unhurried = 1e-3;
-/// Cuts of a step; what still meets then is solved with the rest. Dull blows die away sooner.
+/// Cuts of a step; what still meets after them is solved with the rest. Dull blows die away sooner.
 constexpr int most_cuts = 64, most_cuts_of_dull = 6;
-/// Without getting on: what is wedged would bounce to and fro for ever.
+/// Strikes without progress: a wedged body would bounce back and forth forever.
 constexpr int most_strikes = 4;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr int usual_sub_steps = step::Solver::usual_sub_steps;
 
-/// When the first of a contact's points meet within `left` seconds, faster than a tremble.
+/// When the first of a contact's points meet within `left` seconds, faster than jitter.
 double time_of_blow(const ContactConstraint& contact, const std::vector<Body>& bodies,
                     const std::vector<forces::Load>& loads, double left, double dt) {
   const Body &a = bodies[contact.a], &b = bodies[contact.b];
@@ -62,7 +62,7 @@ bool World::Implementation::hands_on_blows(const islands::IslandContents& island
   if (island.contacts.size() < 2 || island.contacts.size() > small::most_contacts_of_blows || !island.springs.empty() ||
       !island.joints.empty())
     return false;
-  // Of little restitution what is handed on matters where it goes far: in what stands on one foot.
+  // With little restitution, a blow that is passed on matters only if it goes far: in a pile that stands on one foot.
   const auto feet = std::count_if(island.contacts.begin(), island.contacts.end(), [&](const auto* contact) {
     return bodies[contact->a].immovable() || bodies[contact->b].immovable();
   });
@@ -88,8 +88,8 @@ void World::Implementation::solve_by_blows(const islands::IslandContents& island
   const double soon = small::soon * dt;
   const bool springs_back = std::any_of(island.contacts.begin(), island.contacts.end(),
                                         [](const auto* contact) { return contact->restitution > small::dull; });
-  // Between blows nothing bounces: what is slower than a blow would only tremble. Where blows are dull, it is solved no
-  // further than where there are none.
+  // Between blows nothing bounces: speeds below a blow would only jitter. If blows are dull, it is solved no
+  // further than without blows.
   const auto calmly = [&](std::span<ContactConstraint* const> blown, double h) {
     std::vector<double> restitutions;
     restitutions.reserve(blown.size());
@@ -113,7 +113,7 @@ void World::Implementation::solve_by_blows(const islands::IslandContents& island
   double left = dt;
   int strikes = 0;  // since the last cut
   for (int cut = 0; cut < most_cuts && strikes < small::most_strikes; ++cut) {
-    // What meets right at the end of the step does so in it.
+    // What meets exactly at the end of the step still belongs to it.
     const double span = left + soon;
     double first = small::never;
     slow.clear();

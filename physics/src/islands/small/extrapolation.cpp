@@ -7,7 +7,7 @@ namespace tweenfall::small {
 
 namespace {
 
-/// Parts of a difference that are rounding.
+/// Rounding of a difference, relative.
 constexpr double nothing = 1e-7;
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
@@ -39,7 +39,7 @@ const std::vector<double>& Extrapolation::next(const std::vector<double>& from, 
   last_change_ = change_;
   last_result_ = to;
   const auto at = [&](std::size_t age) -> Difference& { return differences_[(newest_ + most - age) % most]; };
-  // Least squares, the newest first; what they tell twice is left out.
+  // Least squares, the newest first; what they have in common is left out.
   rest_ = change_;
   for (std::size_t age = 0; age < known_; ++age) {
     Difference& difference = at(age);

@@ -6,31 +6,31 @@
 
 namespace tweenfall::small {
 
-/// Where passes lead that each make a vector of the one before: from the last few of them, the combination whose change
+/// The limit of passes that each map a vector to the next: from the last few passes, the combination whose change
 /// is least. In a smooth problem this ends after as many passes as there are unknowns, however slowly the passes alone
-/// would come near.
+/// would converge.
 /// Source: Anderson, Iterative Procedures for Nonlinear Integral Equations, Journal of the ACM 12, 1965; Walker and Ni,
 /// Anderson Acceleration for Fixed-Point Iterations, SIAM Journal on Numerical Analysis 49, 2011.
 class Extrapolation {
  public:
-  /// Nothing is known yet of the passes over vectors of this size.
+  /// Starts over, with vectors of this size.
   void begin(std::size_t size) {
     size_ = size;
     known_ = 0;
     started_ = false;
   }
-  /// One pass made `to` of `from`. @return what to begin the next pass with
+  /// One pass mapped `from` to `to`. @return the vector for the next pass to start with
   const std::vector<double>& next(const std::vector<double>& from, const std::vector<double>& to);
 
  private:
   static constexpr std::size_t most = 6;
 
   struct Difference {
-    std::vector<double> change, result;  ///< of what a pass changes, and of what it makes
-    std::vector<double> direction;       ///< of the change, less what newer ones tell
-    double length = 0;                   ///< of that; 0 where the newer ones tell all
+    std::vector<double> change, result;  ///< differences of what a pass changes, and of what it returns
+    std::vector<double> direction;       ///< of the change, without what newer ones contain
+    double length = 0;                   ///< of `direction`; 0 if the newer ones contain it all
     double share = 0;
-    std::array<double, most> along{};  ///< the directions of the newer ones
+    std::array<double, most> along{};  ///< components along the directions of the newer ones
   };
 
   std::size_t size_ = 0, known_ = 0, newest_ = 0;

@@ -85,7 +85,7 @@ void PartsOfStep::finish(double dt) {
     first.total_friction = sum.impulse - sum.normal * contact.manifold.normal;
     first.approach = sum.approach;
     contact.total_rolling = sum.rolling;
-    // Its manifold is not of the start of the step.
+    // Its manifold is not from the start of the step.
     contact.kept = false;
     contact.impact_time = dt;
   }

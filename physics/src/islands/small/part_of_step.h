@@ -10,26 +10,26 @@
 
 namespace tweenfall::small {
 
-/// A contact that has none of its points yet.
+/// The same contact without its points.
 [[nodiscard]] contacts::ContactConstraint looked_for_again(const contacts::ContactConstraint& before);
-/// Hands the impulses on to the points of the same features.
+/// Passes the impulses on to the points of the same features.
 void inherit(const contacts::ContactConstraint& before, contacts::ContactConstraint& next);
-/// Of a body, or of a part of it.
+/// The passage of a body, or of a part of it.
 [[nodiscard]] collision::Passage way_of(const state::Body& body, std::uint32_t part, const forces::Load& load,
                                         double dt);
 
-/// A small island that goes through a step part by part, and what comes of its contacts in all of them.
+/// A small island that goes through a step part by part, and the result of its contacts over all parts.
 class PartsOfStep {
  public:
   PartsOfStep(const islands::IslandContents& island, const std::vector<state::Body>& bodies);
 
   [[nodiscard]] std::span<const std::uint32_t> movable() const { return movable_; }
-  /// Contacts that the part at hand found, in the island's order.
+  /// Contacts found for the present part, in the island's order.
   std::vector<contacts::ContactConstraint*> near;
-  /// What the last solving made of a contact.
+  /// Adds the result of the last solution of a contact.
   void add(const contacts::ContactConstraint& contact);
   void add(const contacts::ContactConstraint& contact, const Vec3& impulse, double normal, double approach);
-  /// Tells it all as if it had come of one step.
+  /// Reports everything as if it had happened in one step.
   void finish(double dt);
 
  private:

@@ -6,8 +6,8 @@
 #include "state/world_data.h"
 #include "step/solver.h"
 
-/// Small islands in which something turns so fast, or is about to, that contacts found once for a step say nothing
-/// about its end: they go through it in pieces, and every piece looks for its contacts anew.
+/// Small islands in which something turns so fast, or is about to, that contacts found once per step say nothing
+/// about its end: they go through the step in pieces, and every piece finds its contacts again.
 
 namespace tweenfall {
 
@@ -17,14 +17,15 @@ namespace {
 using contacts::ContactConstraint;
 using state::Body;
 
-/// Contacts of an island that is taken to pieces, at most.
+/// Greatest number of contacts of an island that is cut into pieces.
 constexpr std::size_t most_contacts = 32;
-/// What may turn in a step by more than this is taken to pieces in which it turns by less, rad.
+/// A step in which something may turn by more than `much` is cut into pieces in which it turns by at most `little`,
+/// rad.
 constexpr double much = 1.5;
 constexpr double little = 0.15;
 constexpr int most_pieces = 600;
-/// As many of what no pieces follow, for it turns by more than `beyond_following` in a step, rad: it stays bounded, and
-/// takes no end of time.
+/// Number of pieces for a body that no pieces can follow, as it turns by more than `beyond_following` in a step, rad:
+/// it stays bounded, in bounded time.
 constexpr int pieces_of_unfollowed = 60;
 constexpr double beyond_following = 1e5;
 constexpr int least_sub_steps = 8;
@@ -33,7 +34,7 @@ bool round(const Body& body) {
   return std::holds_alternative<Sphere>(body.shape().solid);
 }
 
-/// By how much the bodies of a contact may turn in a step, against each other and by the blow that they give each
+/// By how much the bodies of a contact may turn in a step, relative to each other and by the blow that they give each
 /// other, rad.
 double turn_of(const ContactConstraint& contact, const std::vector<Body>& bodies, double dt) {
   const Body &a = bodies[contact.a], &b = bodies[contact.b];

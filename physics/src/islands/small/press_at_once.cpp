@@ -5,15 +5,15 @@
 
 #include "step/solver.h"
 
-/// The normal impulses of one contact, all at once: points that lie near each other are in each other's way point by
-/// point.
+/// Solves for the normal impulses of one contact all at once: one after the other, points close together would disturb
+/// each other.
 
 namespace tweenfall::small {
 
 namespace {
 
-/// Of each point's own ease: with so much more of it no set of points is one too many, and it is taken away again by
-/// solving anew about the impulses that came out.
+/// Softness added to each point: with it, no set of points is linearly dependent, and solving again about the resulting
+/// impulses removes its effect.
 /// Source: Rockafellar, Monotone Operators and the Proximal Point Algorithm, SIAM J. Control 14, 1976.
 constexpr double softness = 1e-9;
 constexpr int most_hardenings = 8;
@@ -23,7 +23,7 @@ using Numbers = std::array<double, 4>;
 /// How impulses of points change their speeds: rows of a positive definite matrix.
 using Eases = std::array<Numbers, 4>;
 
-/// Impulses of the pressing points, set bit by bit, that leave them no speed; none of the others.
+/// Impulses of the pressing points, given as bits, that stop these points; 0 for the others.
 Numbers pressed_by(unsigned pressing, int count, const Eases& eases, const Numbers& speeds) {
   Eases left = eases;
   Numbers impulses{};
@@ -48,7 +48,7 @@ Numbers pressed_by(unsigned pressing, int count, const Eases& eases, const Numbe
   return impulses;
 }
 
-/// How far a set of pressing points is from one of which none pulls and that lets none of the others close; 0 at best.
+/// How far a set of pressing points is from a solution, in which none pulls and no other point closes; 0 at best.
 double wrong_of(unsigned pressing, int count, const Eases& eases, const Numbers& speeds, const Numbers& impulses) {
   double wrong = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -60,7 +60,7 @@ double wrong_of(unsigned pressing, int count, const Eases& eases, const Numbers&
 }
 
 /// The impulses of the best of all sets of points that may press.
-/// @param likely  tried first, since most often it is the one; the best set
+/// @param likely  tried first, since most often it is the right one; returns the best set
 Numbers pressed(int count, const Eases& eases, const Numbers& speeds, unsigned& likely) {
   Numbers best{};
   double least = std::numeric_limits<double>::infinity();
@@ -95,7 +95,7 @@ void Solver::press_at_once(SolvedContact& contact, const PointRows* rows) {
   const Vec3& normal = contact.normal;
   small::Eases eases{};
   small::Numbers start{}, speeds{};
-  // A unit of impulse is such that it adds a unit of speed by itself.
+  // A unit of impulse is scaled to add a unit of speed by itself.
   for (std::size_t i = 0; i < count; ++i) {
     const SolvedPoint& point = contact.points[i];
     const PointRows& row = rows[i];
@@ -112,7 +112,7 @@ void Solver::press_at_once(SolvedContact& contact, const PointRows* rows) {
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < count; ++k) speeds[i] -= eases[i][k] * start[k];
     const double firm = contact.points[i].firm;
-    // What is left out gives way to anything.
+    // A point that is left out is softer than anything.
     eases[i][i] += firm > 0 ? (1 - firm) / firm + small::softness : 1 / small::softness;
     if (!(firm > 0)) speeds[i] = 0;
   }

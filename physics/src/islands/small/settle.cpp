@@ -5,30 +5,30 @@
 #include "collision/surfaces/surface.h"
 #include "step/solver.h"
 
-/// Small islands are solved to the end, however unlike their masses.
+/// Small islands are solved to the end, however different their masses.
 
 namespace tweenfall::step {
 
 namespace {
 
-/// A change of velocity that no longer matters, parts of the greatest speed and m/s.
+/// A change of velocity below this no longer matters, relative to the greatest speed and in m/s.
 constexpr double settled = 1e-14;
 constexpr double rounding = 1e-15;
-/// Passes that nearly always do.
+/// Passes that are nearly always enough.
 constexpr int plain_passes = 6;
-/// Passes after which what is left must do; more where much rests on several that are far lighter, for there what is
-/// left would throw them out.
+/// After this many passes the result has to do; there are more if much rests on several far lighter bodies, since the
+/// remaining error would throw those out.
 constexpr int most_passes = 160, most_far_apart = 500;
-/// Passes in which nothing gets better, so that nothing will.
+/// Number of passes without improvement after which none is expected.
 constexpr int most_idle = 40, idle_far_apart = 200;
-/// Times that normals and friction of a single contact take turns; and those in which nothing gets better.
+/// How often normals and friction of a single contact take turns; and how often without improvement.
 constexpr int most_turns = 40, most_idle_turns = 5;
-/// A change that is so many times the least before.
+/// A change is wild if it exceeds the least one before by this factor.
 constexpr double wild = 100;
 
-/// What is extrapolated to so many times the greatest impulse is not worth trying.
+/// An extrapolation beyond this multiple of the greatest impulse is not worth trying.
 constexpr double far = 1e4;
-/// Bodies of which one is so many times as heavy as another.
+/// Ratio of masses from which bodies count as unlike.
 constexpr double unlike = 10;
 constexpr double far_apart = 300;
 constexpr std::size_t several = 3;
@@ -56,7 +56,7 @@ void Solver::read_impulses(std::vector<double>& impulses) const {
   }
 }
 
-/// Which points press, and which of them slide.
+/// Which points press, and which of these slide.
 void Solver::read_holds(std::vector<char>& holds) const {
   holds.clear();
   for (const SolvedContact& contact : contacts_)
@@ -93,21 +93,21 @@ void Solver::set_impulses(const std::vector<double>& impulses) {
   }
 }
 
-/// Whether all that acts in the island are contacts that push and rub.
+/// Whether everything that acts in the island is contacts that push and rub.
 bool Solver::extrapolates(const std::vector<state::Body>& bodies, Springs springs) const {
   if (contacts_.size() > to_the_end || !springs.empty()) return false;
-  // Of several alike bodies the passes that all get come near enough.
+  // With several bodies of similar mass, the usual passes come close enough.
   if (contacts_.size() > 1 && heaviest_ < unlike * lightest_) return false;
   for (const SolvedContact& contact : contacts_)
     if (contact.rolling_friction > 0 || contact.spinning_friction > 0) return false;
-  // What touches several triangles has contacts that come and go.
+  // A body that touches several triangles has contacts that come and go.
   for (std::size_t i = 1; i < contacts_.size(); ++i) {
     const SolvedContact &one = contacts_[i - 1], &other = contacts_[i];
     if (one.a == other.a && one.b == other.b &&
         (surfaces::surface_of(bodies[one.a].shape().solid) || surfaces::surface_of(bodies[one.b].shape().solid)))
       return false;
   }
-  // Between two that go their own ways no impulse is enough.
+  // Between two bodies with wills of their own, no impulse is enough.
   const auto wills =
       std::count_if(bodies_.begin(), bodies_.end(), [](const SolverBody& body) { return !body.movable; });
   if (wills > 1 && !led_.empty()) return false;
@@ -131,7 +131,7 @@ void Solver::settle(int passes, const std::function<double(bool backward)>& pass
   read_impulses(from_);
   best_ = from_;
   extrapolation_.begin(from_.size());
-  // Not less than what the rounding of the greatest impulse does to the lightest body.
+  // At least the effect of the greatest impulse's rounding on the lightest body.
   for (std::size_t n = 0; n < contacts_.size(); ++n)
     for (int i = 0; i < contacts_[n].count; ++i) {
       const double scale = rows_[4 * n + static_cast<std::size_t>(i)].scale;
@@ -156,14 +156,14 @@ void Solver::settle(int passes, const std::function<double(bool backward)>& pass
     std::swap(holds_, held_);
     read_holds(holds_);
     if (holds_ != held_ || change > wild * least) {
-      // What presses, holds or slides has changed: what was learned is of another problem.
+      // What presses, holds or slides has changed: what was learned belongs to another problem.
       extrapolation_.begin(from_.size());
       std::swap(from_, to_);
       continue;
     }
     const std::vector<double>& next = extrapolation_.next(from_, to_);
     if (greatest(next) > far * greatest(to_)) {
-      // Of such impulses the rounding would stay behind in the velocities.
+      // With such impulses, their rounding would remain in the velocities.
       extrapolation_.begin(from_.size());
       std::swap(from_, to_);
       continue;
@@ -173,7 +173,7 @@ void Solver::settle(int passes, const std::function<double(bool backward)>& pass
   }
   if (contacts_.size() == 1) {
     set_impulses(best_);
-    // What leads and turns asks its points for slips of which no body is capable: then each turn is like the last.
+    // A turning led body may ask its points for slips that no body can have: then no turn is better than the last.
     double nearest = std::numeric_limits<double>::infinity();
     for (int k = 0, since = 0; k < most_turns && since < most_idle_turns; ++k) {
       press_at_once(contacts_.front(), rows_.data());
@@ -183,7 +183,7 @@ void Solver::settle(int passes, const std::function<double(bool backward)>& pass
       nearest = std::min(nearest, change);
     }
   }
-  // Where no end is in sight it is worth as much as the last pass.
+  // If no end is in sight, it is no better than the last pass.
   if (pass(false) > before) set_impulses(best_);
 }
 

@@ -12,16 +12,16 @@ namespace {
 
 /// Points nearer than this touch, m.
 constexpr double touching = 1e-6;
-/// Blows at one instant; what still closes then is solved with the rest of the step.
+/// Blows at one instant; what still closes after them is solved with the rest of the step.
 constexpr int most_blows = 400;
-/// Passes over the points of one blow, and a change of velocity that no longer matters, parts of the greatest speed.
+/// Passes over the points of one blow, and a change of velocity that no longer matters, relative to the greatest speed.
 constexpr int passes_of_a_blow = 100;
 constexpr double struck = 1e-15;
-/// Of blows of so little restitution such a change does not matter either.
+/// For blows of so little restitution, a change below this does not matter either.
 constexpr double dull = 0.25, struck_dully = 1e-9;
-/// Blows whose speeds differ by less than this part are one.
+/// Blows whose speeds differ by less than this, relatively, count as one.
 constexpr double alike = 1e-9;
-/// Part of an energy that is rounding.
+/// Rounding of an energy, relative.
 constexpr double no_energy = 1e-14;
 
 }  // namespace
@@ -79,7 +79,7 @@ void Solver::strike_at_once(std::span<const std::size_t> numbers) {
     });
     if (change <= enough) break;
   }
-  // With friction a rebound at the speed that is asked for may have more energy than there was.
+  // With friction, a rebound at the requested speed may have more energy than there was.
   double slope = 0, curvature = 0;
   for (const SolverBody& start : before) {
     const SolverBody& body = at(start.index);
@@ -146,7 +146,7 @@ const std::vector<Blow>& Solver::strike(std::vector<state::Body>& bodies, const 
     }
     if (sum.normal == 0) continue;
     blows_.push_back(sum);
-    // What bounced off says nothing about the forces after it.
+    // A rebound says nothing about the forces after it.
     if (contact.restitution > 0)
       for (contacts::PointConstraint& point : contact.origin->points) {
         point.kept_normal = 0;

@@ -8,7 +8,7 @@ namespace {
 
 struct Branch {
   Bounds box{Vec3::Zero(), Vec3::Zero()};
-  std::uint32_t begin = 0, end = 0;   ///< of the places that are in it
+  std::uint32_t begin = 0, end = 0;   ///< of the places in it
   std::uint32_t left = 0, right = 0;  ///< of a leaf: 0, which is the root
 };
 
@@ -20,7 +20,7 @@ class Hierarchy {
     if (!places_.empty()) build(0, static_cast<std::uint32_t>(places_.size()));
     for (const Branch& branch : branches_) search_.cells.push_back(branch.box);
   }
-  /// What meets what below one branch.
+  /// Finds the pairs below one branch.
   void within(std::uint32_t number) {
     const Branch& branch = branches_[number];
     if (branch.left == 0) return;
@@ -66,7 +66,7 @@ class Hierarchy {
     }
     ++search_.tests;
     if (!overlap(one.box, other.box)) return;
-    // The one with more in it is opened.
+    // The branch with more items is opened.
     if (other.left == 0 || (one.left != 0 && one.end - one.begin >= other.end - other.begin)) {
       between(one.left, b);
       between(one.right, b);
@@ -83,7 +83,7 @@ class Hierarchy {
 
 }  // namespace
 
-/// A tree of boxes around boxes: two branches that do not meet are passed by with all that is in them.
+/// A tree of boxes around boxes: two branches that do not meet are skipped with everything in them.
 /// Source: Ericson, Real-Time Collision Detection, 2005, chapter 6.
 void bvh(Search& search) {
   Hierarchy hierarchy(search);

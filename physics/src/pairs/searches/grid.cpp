@@ -9,11 +9,11 @@ namespace tweenfall::pairs {
 
 namespace {
 
-/// A cell is so many times as wide as a box in the middle of all.
+/// Width of a cell in multiples of a middling box.
 constexpr double roominess = 2;
-/// What would lie in more cells than this is held against all instead.
+/// Boxes that would lie in more cells than this are tested against all instead.
 constexpr double most_cells = 512;
-/// Cells are counted up to here.
+/// Greatest number of a cell.
 constexpr double last_cell = 1e15;
 
 struct InCell {
@@ -32,7 +32,7 @@ double middle_side(std::span<const Item> items) {
 
 }  // namespace
 
-/// Space cut into equal cubes: only boxes that share a cell are held against each other.
+/// Space cut into equal cubes: only boxes that share a cell are tested against each other.
 void grid(Search& search) {
   if (search.items.empty()) return;
   const double side = middle_side(search.items);
@@ -67,7 +67,7 @@ void grid(Search& search) {
   }
   for (std::size_t i = 0; i < large.size(); ++i)
     for (std::uint32_t other = 0; other < search.items.size(); ++other)
-      // Of two large ones the first holds them against each other.
+      // Of two large ones, the first tests them against each other.
       if (!std::binary_search(large.begin(), large.begin() + static_cast<std::ptrdiff_t>(i) + 1, other))
         search.test(large[i], other);
 }

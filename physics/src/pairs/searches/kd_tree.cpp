@@ -38,9 +38,9 @@ void cut_in_two(Search& search, const Bounds& cell, std::span<const std::uint32_
 
 }  // namespace
 
-/// Space cut in two where half of the boxes are on either side, and each part again, across its longest side. Only
-/// boxes that share a cell are held against each other. Source: Bentley, Multidimensional binary search trees used for
-/// associative searching, Communications of the ACM 18, 1975.
+/// Space cut in two with half of the boxes on either side, and each part again, across its longest side. Only
+/// boxes that share a cell are tested against each other. Source: Bentley, Multidimensional binary search trees used
+/// for associative searching, Communications of the ACM 18, 1975.
 void kd_tree(Search& search) {
   if (search.items.empty()) return;
   std::vector<std::uint32_t> inside(search.items.size());

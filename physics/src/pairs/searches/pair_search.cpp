@@ -11,10 +11,10 @@ namespace tweenfall {
 namespace pairs {
 namespace {
 
-/// More would not fit where programs run.
+/// More would not fit into memory everywhere.
 constexpr std::size_t most_found = 20'000'000;
 
-/// As the world's own: each box is held against a tree of those before it.
+/// As the world does it: each box is tested against a tree of those before it.
 void by_tree(Search& search) {
   BoundsTree tree;
   for (std::uint32_t i = 0; i < search.items.size(); ++i) tree.set(i, search.items[i].box);

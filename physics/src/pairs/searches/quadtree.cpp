@@ -4,8 +4,8 @@
 
 namespace tweenfall::pairs {
 
-/// A square cut into four, each of which is cut again where there is much in it: along the two axes in which all lie
-/// widest. Only boxes that share a cell are held against each other.
+/// A square cut into four, each of which is cut again if it holds many boxes: along the two axes in which the boxes
+/// spread most. Only boxes that share a cell are tested against each other.
 /// Source: Finkel and Bentley, Quad trees: a data structure for retrieval on composite keys, Acta Informatica 4, 1974.
 void quadtree(Search& search) {
   const Bounds all = search.all();

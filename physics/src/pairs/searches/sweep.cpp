@@ -10,7 +10,7 @@ namespace {
 int widest_axis(std::span<const Item> items) {
   Vec3 sum = Vec3::Zero(), squares = Vec3::Zero();
   for (const Item& item : items) {
-    // Of boxes that reach everywhere the middle says little; the square would be no number.
+    // For boxes that reach everywhere the middle says little, and its square would not be a number.
     const Vec3 middle = (0.5 * (item.box.low + item.box.high)).cwiseMax(-1e60).cwiseMin(1e60);
     sum += middle;
     squares += middle.cwiseProduct(middle);
@@ -24,7 +24,7 @@ int widest_axis(std::span<const Item> items) {
 
 }  // namespace
 
-/// Boxes in the order in which they begin along one axis; each is held against those that begin before it ends.
+/// Boxes in the order in which they begin along one axis; each is tested against those that begin before it ends.
 /// Source: Baraff, Dynamic Simulation of Non-Penetrating Rigid Bodies, 1992 (sort and sweep).
 void sweep(Search& search) {
   const int axis = widest_axis(search.items);
