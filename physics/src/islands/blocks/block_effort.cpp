@@ -8,7 +8,7 @@
 #include "step/softness.h"
 #include "step/solver.h"
 
-/// Which islands are solved in blocks, and how thoroughly.
+/// Decides which islands are solved in blocks, and how thoroughly.
 
 namespace tweenfall::blocks {
 
@@ -17,36 +17,36 @@ using state::Body;
 
 namespace {
 
-/// Sub-steps in a step. Tall stacks need many, and few contacts can afford them: a stack of forty falls with sixteen
-/// and stands with 24 to a fifth of a millimeter; a pyramid of fifty rows leans and falls with eight. What carries
-/// itself over fewer contacts needs fewer.
+/// Sub-steps per step. Tall stacks need many, and few contacts can afford them: a stack of forty falls with sixteen
+/// and stands with 24 to a fifth of a millimeter; a pyramid of fifty rows leans and falls with eight. A pile whose
+/// weight passes through fewer contacts needs fewer.
 constexpr std::size_t few = 128;
 constexpr std::uint32_t deep_of_few = 20, deep_of_many = 50;
 constexpr int sub_steps_of_few = 24, fewest_of_few = 14, fewest_of_turning = 6;
 constexpr int sub_steps_of_many = 10, fewest_of_many = 5;
-/// Of so few contacts they are those of `Solver`, with several passes in each. With half as many, what a press squeezes
-/// is shot away, and a stack of two sinks a tenth of a millimeter. On what a single contact bears nothing else rests:
-/// where it turns half as many do, with as many passes as it takes.
+/// With so few contacts, sub-steps are those of `Solver`, with several passes in each. With half as many, a box in a
+/// press is shot away, and a stack of two sinks a tenth of a millimeter. On a body with a single contact nothing else
+/// rests: if it turns, half as many are enough, with as many passes as it takes.
 constexpr std::size_t small = 8;
 constexpr int sub_steps_of_small = 8, sub_steps_of_turning = 4;
-/// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s. Whoever takes
-/// short steps wants to be nearer.
+/// With joints, an island solved all at once needs few sub-steps, but blows that it passes on need short ones, s. A
+/// caller who takes short steps wants more accuracy.
 constexpr double longest_of_jointed = 1.0 / 180, long_step = 1.0 / 100;
 constexpr int fewest_of_jointed = 3, fewest_of_jointed_in_short = 4;
-/// On what a hand touches the whole figure may rest: as soft as for the hand alone, it would sink in.
+/// A whole figure may rest on its hand: with contacts as soft as for the hand alone, it would sink in.
 constexpr double giving_of_jointed = 0.25;
 /// Rows are prepared again when a body has turned by this since, rad.
 constexpr double turned_enough = 0.02, turned_enough_of_small = 0.002;
-/// Rows cannot follow what turns by more than this in a sub-step, rad.
+/// Rows cannot follow a body that turns by more than this in a sub-step, rad.
 constexpr double followable = 0.5, followable_of_small = 0.05, followable_of_jointed = 0.3;
 
-/// What turns by more than this in a step does not lie, rad: it has no rest that would show in micrometers.
+/// A body that turns by more than this in a step is not at rest, rad: there is no rest that needs micrometers.
 constexpr double turns = 1e-3;
-/// Of the blows of so little restitution those that are handed on do not matter.
+/// With so little restitution, blows that are passed on do not matter.
 constexpr double dull = 0.25;
 constexpr int passes_of_meeting = 2;
 
-/// Even numbers: islands with the same are solved together.
+/// Only even numbers: islands with the same number are solved together.
 int sub_steps_of_depth(std::uint32_t depth, int fewest) {
   const std::uint32_t deep = std::min(depth, deep_of_few);
   const std::uint32_t more = static_cast<std::uint32_t>(sub_steps_of_few - fewest);
@@ -59,7 +59,7 @@ int sub_steps_of_deep_heap(std::uint32_t depth) {
   return fewest_of_many + static_cast<int>((steps + deep_of_many - 1) / deep_of_many);
 }
 
-/// Whether something in it turns that is not round.
+/// Whether a body in it turns that is not round.
 bool has_turning(const islands::IslandContents& island, const std::vector<Body>& bodies, double dt) {
   const auto its = [&](std::uint32_t index) {
     const Body& body = bodies[index];
@@ -69,12 +69,13 @@ bool has_turning(const islands::IslandContents& island, const std::vector<Body>&
                      [&](const ContactConstraint* contact) { return its(contact->a) || its(contact->b); });
 }
 
-/// Whether it is moved by its own will, or its surface is.
+/// Whether it, or its surface, moves by its own will.
 bool drives(const Body& body) {
   return body.displaces() || body.conveys;
 }
 
-/// Whether the heaviest is more than so many times the lightest: few passes do not come near what that one bears.
+/// Whether the heaviest body has more than `most` times the mass of the lightest: few passes do not get near what that
+/// one bears.
 bool unlike(const islands::IslandContents& island, const std::vector<Body>& bodies, double most) {
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
   for (const ContactConstraint* contact : island.contacts)
@@ -87,7 +88,7 @@ bool unlike(const islands::IslandContents& island, const std::vector<Body>& bodi
   return greatest > most * least;
 }
 
-/// Whether nearly all contacts are those of one body, which few passes do not bring together: each undoes what the ones
+/// Whether nearly all contacts are those of one body, for which few passes do not converge: each undoes what the ones
 /// before it did.
 bool has_hub(const islands::IslandContents& island, const std::vector<Body>& bodies) {
   const std::size_t count = island.contacts.size();
@@ -101,7 +102,7 @@ bool has_hub(const islands::IslandContents& island, const std::vector<Body>& bod
   return false;
 }
 
-/// Whether a jointed island holds what acts on all that is solved with it: rebounds, drives, springs, what is led.
+/// Whether a jointed island contains what affects everything solved with it: rebounds, drives, springs, led bodies.
 bool is_apart(const islands::IslandContents& island, const std::vector<Body>& bodies) {
   const auto acts = [&](std::uint32_t index) {
     return drives(bodies[index]) || bodies[index].drive.owner() == Owner::driven;
@@ -116,7 +117,7 @@ bool is_apart(const islands::IslandContents& island, const std::vector<Body>& bo
   });
 }
 
-/// Of what is jointed and has different moments about its axes, rad/s.
+/// Fastest spin of a jointed body with different moments about its axes, rad/s.
 double fastest_spin(const islands::IslandContents& island, const std::vector<Body>& bodies) {
   double fastest = 0;
   for (const joints::JointLink* link : island.joints)
@@ -224,20 +225,20 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     for (int i = 0; i < contact->count; ++i)
       is_pushed_out = is_pushed_out || contact->points[static_cast<std::size_t>(i)].start_gap < -fallen;
     if (!contact->impact) continue;
-    // The blow of two bodies, and what comes back from it, is solved to the end.
+    // The blow of two bodies, and their rebound, is solved to the end.
     if (island.contacts.size() == 1 || contact->restitution > dull) return std::nullopt;
     meets = true;
   }
   if (islands::is_wedged(island.contacts, bodies,
                          step::soft_contacts(settings.push_out_speed, dt, effort.sub_steps, parts_).deep()))
     return std::nullopt;
-  // What is left of an uneven push stays with what turns, for that lets go of what it touches, and moves what is pushed
-  // out aside.
+  // A turning body keeps what is left of an uneven push, since it lets go of what it touches; and it would move bodies
+  // that are pushed out sideways.
   const bool is_turning = effort.single && fastest * dt > turns;
   if (is_turning || is_pushed_out) effort.softening = effort.relaxing = 3 * settings.iterations;
   if (is_turning && !is_pushed_out && fastest * dt <= followable_of_small * sub_steps_of_turning)
     effort.sub_steps = sub_steps_of_turning;
-  // What meets has no rest yet that many passes would find.
+  // Bodies that just meet have no rest yet that many passes would find.
   if (meets) effort.softening = effort.relaxing = passes_of_meeting;
   return effort;
 }

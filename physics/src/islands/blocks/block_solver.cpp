@@ -15,15 +15,15 @@ using state::Body;
 
 namespace {
 
-/// Of the speed that the impulses of a contact give in a sub-step, a change that no longer matters: of a body that
-/// lies, or rolls, a few hundredths of a micrometer per second.
+/// A change below this part of the speed that a contact's impulses give in a sub-step no longer matters: for a body
+/// that lies or rolls, a few hundredths of a micrometer per second.
 constexpr double settled = 1e-6;
 
 constexpr BodyLag pressed_still = {{0, 0, 0, 1}};
 
 }  // namespace
 
-/// Where a contact holds a body, the velocity after the impulses counts: a mean would leave every tremble undamped.
+/// Where a contact holds a body, the velocity after the impulses counts: a mean would leave all jitter undamped.
 void BlockSolver::find_lags() {
   each_body([&](std::size_t i) {
     const double share = paces_[i].movable ? 0.5 : 0;
@@ -40,8 +40,8 @@ void BlockSolver::find_lags() {
   if (!joints_.empty()) find_lags_of_jointed();
 }
 
-/// What joints alone hold together flies as one: its center of mass has the mean velocity, and nothing else is free to
-/// tremble. What hangs on something is held as by a contact. A joint that is slack holds nothing.
+/// Bodies held only by joints fly as one: their center of mass has the mean velocity, and nothing else is free to
+/// jitter. If they hang on something, they are held as by a contact. A slack joint holds nothing.
 void BlockSolver::find_lags_of_jointed() {
   for (IslandBody& body : bodies_) body.jointed = false;
   jointed_.assign(island_of_.back() + std::size_t{1}, {});
@@ -61,8 +61,8 @@ void BlockSolver::find_lags_of_jointed() {
   }
 }
 
-/// Joints and motors that contradict each other may ask for any speed. What would turn or go further in a sub-step than
-/// can be followed keeps the velocity that it had, and the joints forget what they asked for.
+/// Joints and motors that contradict each other may ask for any speed. A body that would turn or move farther in a
+/// sub-step than can be followed keeps the velocity that it had, and its joints forget what they asked for.
 void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
   constexpr double farthest_turn = 2;  // rad
   constexpr double farthest = 100;     // of the body's size
@@ -93,8 +93,8 @@ void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
   joints_.forget([this](std::uint32_t place) { return jointed_[island_of_[place]].wild; });
 }
 
-/// What impulses gave to the spins of jointed bodies turns along with them. Most of it is known when the rows begin; of
-/// the rest joints see what is left with the next sub-step.
+/// What impulses gave to the spins of jointed bodies turns along with them. Most of it is known when the rows begin;
+/// joints see the rest in the next sub-step.
 void BlockSolver::follow_spins(const std::vector<Body>& bodies) {
   if (spins_.empty()) return;
   work_.ranges(uneven_.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
@@ -193,7 +193,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
     follow_spins(bodies);
     if (bouncy_) find_rebounds(h);
-    // Joints have the last word: what a contact then lacks, the next sub-step gives.
+    // Joints have the last word: what a contact then lacks, the next sub-step supplies.
     for (int k = 0; k < softening; ++k) {
       soft.note = k + 1 == softening;
       holds_.solve(bodies, bodies_, contacts_, velocities_);
@@ -218,7 +218,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       joints_.solve(velocities_, false, true);
     }
     if (!joints_.empty()) tame_jointed(bodies, h);
-    // Also a rope that only the last pass tightened has pulled at both ends.
+    // A rope that only the last pass tightened also pulled at both ends.
     joints_.each_acting([this](std::uint32_t a, std::uint32_t b) { paces_[a].touched = paces_[b].touched = true; });
     joints_.end_sub_step();
     holds_.add_up();
@@ -227,7 +227,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   contacts_.store(h, dt, parts_, work_);
   holds_.store();
   end_jointed(bodies);
-  // Also a body that only the last pass reached has momentum from it.
+  // A body that only the last pass reached also got momentum from it.
   work_.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto pushed = [](const contacts::PointConstraint& point) {

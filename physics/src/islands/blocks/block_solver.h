@@ -17,8 +17,8 @@
 
 namespace tweenfall::blocks {
 
-/// Contacts of islands in sub-steps, eight at a time: what `Solver` does, with rows prepared once for a step (and
-/// again when a body has turned), few passes, and friction at the middle of what does not slide.
+/// Solves contacts of islands in sub-steps, eight at a time: like `Solver`, but with rows prepared once per step (and
+/// again when a body has turned), few passes, and friction at the middle of contacts that do not slide.
 /// Sources: Macklin and others, Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024, and SIMD Matters,
 /// 2024.
 class BlockSolver {
@@ -26,57 +26,57 @@ class BlockSolver {
   /// How thoroughly an island is solved.
   struct Effort {
     int sub_steps = 1;
-    int softening = 1, relaxing = 1;  ///< passes in each that take overlaps apart, and the speed of that away again
+    int softening = 1, relaxing = 1;  ///< passes that remove overlap, and passes that remove the speed this gave
     int rebound_passes = 1;
-    double giving = 1;         ///< share of their softness that contacts have
-    double turned_enough = 0;  ///< rows are prepared again when a body has turned by so much, rad
-    bool heap = false;         ///< many press on each other
-    bool alone = false;        ///< not together with others
-    bool single = false;       ///< one contact: all passes over it are made at once, and no more than change anything
+    double giving = 1;         ///< share of their softness that contacts get
+    double turned_enough = 0;  ///< rows are prepared again when a body has turned by this, rad
+    bool heap = false;         ///< many bodies press on each other
+    bool alone = false;        ///< not together with other islands
+    bool single = false;       ///< one contact: all passes over it are made at once, until one changes nothing
 
     bool operator==(const Effort&) const = default;
   };
 
-  /// Nothing for an island that is for `Solver`: bodies that drives, stiff springs or rolling friction hold, steps far
-  /// shorter than those before them; of few contacts also what meets and springs back, two that meet by themselves,
-  /// and what spins or is moved by its own will.
+  /// Empty for islands that `Solver` has to solve: bodies with drives, stiff springs or rolling friction, steps far
+  /// shorter than those before them; with few contacts also impacts that spring back, two bodies that meet alone,
+  /// and bodies that spin or move by their own will.
   [[nodiscard]] std::optional<Effort> effort_for(const islands::IslandContents& island,
                                                  const std::vector<state::Body>& bodies,
                                                  const std::vector<forces::Load>& loads, const WorldSettings& settings,
                                                  double dt, const threads::Workers& workers = {});
 
-  /// Before the islands of a step.
+  /// Call it before the islands of a step.
   void begin(std::size_t bodies, double parts) {
     places_.assign(bodies, 0);
     parts_ = parts;
   }
-  /// Moves the bodies of islands by `dt`; fills in the impulses of their contacts and joints. What one island does
-  /// depends on none of the others.
+  /// Moves the bodies of islands by `dt`; fills in the impulses of their contacts and joints. Islands do not
+  /// depend on each other.
   /// @param moved  by index: set for the bodies that were moved
   void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
              std::span<const islands::IslandContents> islands, const Effort& effort, const WorldSettings& settings,
              double dt, std::vector<char>& moved, const threads::Workers& workers = {});
 
  private:
-  /// A point that would rebound in this sub-step.
+  /// A point that will rebound in this sub-step.
   struct Rebound {
-    std::uint32_t lane, point;  ///< 8 * block + lane, and which of the contact's points
+    std::uint32_t lane, point;  ///< 8 * block + lane, and the index of the contact's point
     double speed;               ///< wanted at the end of the sub-step, m/s
     double time;                ///< how long it moves the bodies, s
     double speed_before = 0;    ///< m/s
   };
 
-  /// What is found of a body, or of a contact, by whichever thread gets to it, and then looked at in order.
+  /// Properties of a body, or of a contact, found by any thread and then read in order.
   struct Traits {
     bool conveys = false, uneven = false, immovable = false, driven = false;
   };
   struct Marks {
     bool impact = false, springs_back = false, pushed = false;
   };
-  /// What joints hold together in an island.
+  /// The jointed bodies of an island.
   struct JointedFlight {
-    bool free = true;      ///< it flies
-    bool wild = false;     ///< something moves further than can be followed
+    bool free = true;      ///< only joints hold it
+    bool wild = false;     ///< something moves farther than can be followed
     double mass = 0;       ///< kg
     Vec3 gained{0, 0, 0};  ///< kg m/s
   };
@@ -108,7 +108,7 @@ class BlockSolver {
   void follow_spins(const std::vector<state::Body>& bodies);
   void end_jointed(const std::vector<state::Body>& bodies);
   [[nodiscard]] Rows rows();
-  /// Calls see(rows) for all blocks, or for parts of those of one color after the other.
+  /// Calls see(rows) for all blocks, color by color, each perhaps in several parts.
   template <class See>
   void by_color(const See& see) {
     const Rows all = rows();
@@ -141,44 +141,44 @@ class BlockSolver {
   [[nodiscard]] double work_of_driven() const;
   void bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads);
 
-  /// Bodies, or contacts, that are worth a part of their own; blocks; and contacts that rebound.
+  /// Number of bodies, or contacts, that are worth a task of their own; of blocks; and of contacts that rebound.
   static constexpr std::size_t worth_a_part = 48;
   static constexpr std::size_t blocks_worth_a_part = 24;
   static constexpr std::size_t rebounds_worth_a_part = 24;
 
-  threads::Workers work_;               ///< within the island that is being solved
-  double parts_ = 1;                    ///< the whole step over the length of this one
+  threads::Workers work_;               ///< within the present island
+  double parts_ = 1;                    ///< length of the whole step divided by that of this one
   std::vector<std::uint32_t> places_;   ///< from a body's index into bodies_; 0 for none
   std::vector<std::uint32_t> indices_;  ///< by place: of the bodies
   std::vector<Traits> traits_;          ///< by place
   std::vector<Marks> marks_;            ///< of the contacts
-  std::vector<IslandBody> bodies_;      ///< the first is nobody: that of empty lanes
+  std::vector<IslandBody> bodies_;      ///< the first stands for no body, in empty lanes
   std::vector<BodyPace> paces_;
   std::vector<BodyLanes> velocities_, starts_, displacements_;
   std::vector<step::LedBody> led_;  ///< of bodies_
   std::vector<BodyLag> lags_;
   std::vector<BodyLag> sub_starts_;  ///< linear displacements at the start of the sub-step
   islands::IslandDepth depth_;
-  std::vector<std::uint32_t> island_of_;              ///< of bodies_: which of those that are solved now
-  std::vector<islands::IslandEnergy> energies_;       ///< of them
+  std::vector<std::uint32_t> island_of_;              ///< of bodies_: its index among the present islands
+  std::vector<islands::IslandEnergy> energies_;       ///< of the present islands
   std::vector<islands::IslandEnergy> even_energies_;  ///< of each body with the same moment about every axis
-  std::vector<char> reached_;                         ///< by a rebound
-  std::vector<char> changed_;                         ///< of bodies_: so was its velocity
-  std::vector<double> shares_;                        ///< of the rebound, that they let through
-  std::vector<contacts::ContactConstraint*> listed_;  ///< contacts of all of them
-  std::vector<joints::JointLink*> listed_joints_;     ///< and joints
-  std::vector<JointedFlight> jointed_;                ///< what joints hold together in each of them
+  std::vector<char> reached_;                         ///< by island: reached by a rebound
+  std::vector<char> changed_;                         ///< of bodies_: its velocity was changed by a rebound
+  std::vector<double> shares_;                        ///< of the rebound, that the islands let through
+  std::vector<contacts::ContactConstraint*> listed_;  ///< contacts of all the islands
+  std::vector<joints::JointLink*> listed_joints_;     ///< joints of all the islands
+  std::vector<JointedFlight> jointed_;                ///< by island
   std::vector<std::uint32_t> uneven_;        ///< places of movable bodies with different moments about their axes
   std::vector<contacts::Closing> closings_;  ///< of the contacts
   ContactBlocks contacts_;
   joints::IslandJoints joints_;
-  JointedSpins spins_;  ///< empty where there are no joints
+  JointedSpins spins_;  ///< empty if there are no joints
   IslandHolds holds_;
   bool bouncy_ = false;      ///< some contact has restitution
   bool conveyed_ = false;    ///< some surface moves
   bool driven_ = false;      ///< a drive holds some body
-  std::vector<char> stale_;  ///< by part of the bodies: one of them has
-  std::vector<char> wild_;   ///< by part of the bodies: one of them moves further than can be followed
+  std::vector<char> stale_;  ///< by part of the bodies: one of them has turned too far
+  std::vector<char> wild_;   ///< by part of the bodies: one of them moves farther than can be followed
   double turned_enough_ = 0;
   bool any_stale_ = false;               ///< a body has turned since its rows were prepared
   std::vector<std::uint32_t> meetings_;  ///< lanes

@@ -14,9 +14,9 @@ using contacts::PointConstraint;
 
 namespace {
 
-/// What a part of a step that is shorter than half of it tells of contacts is mostly its own settling, and what a step
-/// far shorter than the one before tells mostly rounding: what was known before is kept, unless it is old, which is so
-/// many sub-steps, and this says enough of the whole.
+/// In a part shorter than half of a step, the impulses of contacts are mostly their own settling, and in a step far
+/// shorter than the one before mostly rounding: the earlier impulses are kept, unless they are older than this many
+/// sub-steps, and this part is long enough.
 constexpr double most_parts = 2, long_enough = 0.15, old_after = 24;
 
 void put(Lanes3& lanes, int lane, const Vec3& value) {
@@ -40,21 +40,21 @@ void put(MeetingRow& row, int lane, const contacts::Closing& closing, double res
   row.restitution[lane] = restitution;
 }
 
-/// Two bodies as the rows of a contact see them.
+/// The inverse masses and inertias of two bodies, for the rows of a contact.
 struct Masses {
   const IslandBody &a, &b;
   bool isotropic = a.isotropic && b.isotropic;
   double inverse_mass = a.inverse_mass + b.inverse_mass;
 
-  /// How fast a unit of impulse makes two points move against each other by turning the bodies: of arm x direction.
+  /// Relative speed of two points per unit of impulse from turning the bodies; arguments are arm x direction.
   [[nodiscard]] double turning(const Vec3& a1, const Vec3& b1, const Vec3& a2, const Vec3& b2) const {
     if (isotropic) return a.inverse_moment * a1.dot(a2) + b.inverse_moment * b1.dot(b2);
     return a1.dot(a.inverse_inertia * a2) + b1.dot(b.inverse_inertia * b2);
   }
 };
 
-// Kinds of contacts: balls, or three grips, even or not, of up to four points. Contacts of one grip share blocks: those
-// with the most to do come first, so that of blocks nearly all lanes are full and hardly any does more than it must.
+// Kinds of contacts: balls, or three grips, even or not, of up to four points. Contacts of one grip share blocks, those
+// with the most points first, so that nearly all lanes are full and hardly any does more than it must.
 enum class Grip { none, central, points, balls };
 constexpr std::uint32_t kinds_of_grip = 8, kinds = 4 * kinds_of_grip;
 constexpr std::uint32_t ball_kind = static_cast<std::uint32_t>(Grip::balls) * kinds_of_grip;
@@ -67,7 +67,7 @@ bool is_even(std::uint32_t kind) {
   return kind / 4 % 2 == 1;
 }
 
-/// A contact that slides is held point by point, for only so does the spin of what slides die with its slide.
+/// A contact that slides is held point by point, as only this ends the spin of a sliding body together with its slide.
 Grip grip_of(const ContactConstraint& contact) {
   if (!(contact.friction > 0)) return Grip::none;
   return contact.count > 1 && !contact.slid && !contact.began ? Grip::central : Grip::points;
@@ -167,7 +167,7 @@ void ContactBlocks::find_keys(std::span<ContactConstraint* const> contacts, cons
     keys_.push_back(coloring_.color(one.a, one.a_moves, one.b, one.b_moves) * kinds + one.kind);
 }
 
-/// Opens all blocks and balls, and says what is to be filled in.
+/// Creates all blocks and balls, and lists what is to be filled in.
 void ContactBlocks::lay_out() {
   blocks.clear();
   balls.clear();
@@ -206,13 +206,13 @@ void ContactBlocks::lay_out() {
     open(makeup);
     filling.index = static_cast<std::uint32_t>((filling.of_balls ? balls.size() : blocks.size()) - 1);
     fillings_.push_back(filling);
-    // Where all lanes have two movable bodies nothing is left over.
+    // If all lanes have two movable bodies, no place is needed.
     if (filling.count < lane_count || color >= Coloring::half) ++room;
   }
   open_colors(coloring_.end());
 }
 
-/// Those of one key in their order. There are thousands of keys, and of most islands' contacts only few.
+/// Sorts contacts by key, keeping their order. There are thousands of keys, but most islands have only few contacts.
 void ContactBlocks::sort_by_key() {
   constexpr std::size_t few_contacts = 256;
   sorted_.resize(keys_.size());
@@ -370,7 +370,7 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
   const Vec3& normal = contact.manifold.normal;
   const Masses masses{a, b};
   if (!block.even) {
-    // Of two isotropic bodies as where the block is even, to the bit.
+    // Two isotropic bodies give the same bits as in an even block.
     put(inertias[block.inertia].inverse_a, lane,
         masses.isotropic ? Mat3(a.inverse_moment * Mat3::Identity()) : a.inverse_inertia);
     put(inertias[block.inertia].inverse_b, lane,
@@ -424,7 +424,7 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
 }
 
 void ContactBlocks::store(double h, double dt, double parts, const threads::Workers& work) {
-  /// Parts of the grip from which a contact counts as sliding.
+  /// Share of the greatest friction from which on a contact counts as sliding.
   constexpr double sliding = 0.999;
   const double whole = step::kept_as_whole(parts);
   const auto begin = [&](ContactConstraint& contact) {
@@ -471,7 +471,7 @@ void ContactBlocks::store(double h, double dt, double parts, const threads::Work
         point.kept_friction = Vec3::Zero();
       }
       if (block.frictions == 0) continue;
-      // Friction at the middle is shared out evenly.
+      // Friction at the middle is distributed evenly.
       const double share = block.central() ? 1.0 / contact.count : 1;
       const FrictionRow& grip = frictions[block.friction + (block.central() ? 0u : static_cast<std::uint32_t>(k))];
       const Vec3 friction = share * (grip.first[lane] * along1 + grip.second[lane] * along2) + Vec3::Zero();

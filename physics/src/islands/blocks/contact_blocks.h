@@ -17,28 +17,28 @@ namespace tweenfall::blocks {
 /// The contacts of an island, eight at a time, by color.
 class ContactBlocks {
  public:
-  /// Which contacts a block holds; null for an empty lane.
+  /// The contacts of a block; null for an empty lane.
   using Origin = std::array<contacts::ContactConstraint*, lane_count>;
 
-  /// Sorts the contacts and begins with the impulses that they kept.
+  /// Sorts the contacts and starts with the impulses that they kept.
   /// @param places    from a body's index to its place in `bodies`
-  /// @param closings  of the contacts
+  /// @param closings  by contact
   void build(std::span<contacts::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
              const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings, double h,
              const threads::Workers& work);
-  /// Tells the rows of one contact how its bodies lie now.
+  /// Updates the rows of one contact to the present positions of its bodies.
   void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, const BodyLanes* displacements);
-  /// In a sub-step with bodies that are led: what their riders' slip lacks.
+  /// In a sub-step with led bodies: adds what the slip of their riders lacks.
   void ride(const std::vector<IslandBody>& bodies, std::span<const step::LedBody> led,
             const std::vector<BodyLanes>& starts, double h);
-  /// The bodies have been moved.
+  /// Call it once the bodies have been moved.
   void end_ride();
-  /// Gives the impulses back to the contacts, of a step of `dt` in sub-steps of `h`.
-  /// @param parts  as many as it fits into the whole step
+  /// Returns the impulses to the contacts, after a step of `dt` in sub-steps of `h`.
+  /// @param parts  how often it fits into the whole step
   void store(double h, double dt, double parts, const threads::Workers& work);
 
   [[nodiscard]] std::size_t size() const { return blocks.size() + balls.size(); }
-  /// Of blocks, and after them of balls.
+  /// Of blocks, then of balls.
   [[nodiscard]] const Origin& origin(std::size_t i) const {
     return i < blocks.size() ? origins[i] : ball_origins[i - blocks.size()];
   }
@@ -61,32 +61,32 @@ class ContactBlocks {
   std::size_t pairs = 0, ball_pairs = 0;  ///< those of two movable bodies come first
   std::vector<PointRow> points;
   std::vector<FrictionRow> frictions;
-  std::vector<DriftRow> drifts;  ///< beside `frictions`, or none where no surface moves and nothing is led
+  std::vector<DriftRow> drifts;  ///< parallel to `frictions`, or empty if no surface moves and nothing is led
   std::vector<InertiaRow> inertias;
   std::vector<MeetingRow> meetings, ball_meetings;
   std::vector<Origin> origins, ball_origins;
 
-  /// Blocks, or balls, of one color, in the order in which they are solved. They share no body that moves.
+  /// Blocks, or balls, of one color, in the order in which they are solved. They share no movable body.
   struct Phase {
     bool of_balls = false;
     std::size_t begin = 0, end = 0;
   };
   std::vector<Phase> phases;
-  /// The same by their lanes, in the order of these.
+  /// The same in lanes, and in their order.
   struct Stretch {
     std::uint32_t begin = 0, end = 0;
   };
   std::vector<Stretch> stretches;
-  std::uint32_t room = 0;  ///< of bodies, and after them of what is written and not read
+  std::uint32_t room = 0;  ///< of bodies, and after them of places that are written but never read
 
  private:
-  /// Which contacts a block or ball gets, and where what nobody reads is written.
+  /// The contacts of a block or ball, and the place for what is never read.
   struct Filling {
     bool of_balls;
     std::uint32_t index, first, count, room;  ///< `first` in `sorted_`
   };
 
-  /// Of a block: as much of each as that of its lanes needs which needs most.
+  /// For a block: what the most demanding of its lanes needs.
   struct Makeup {
     int grip = 0, points = 1;
     bool even = true;

@@ -5,7 +5,7 @@
 #include "contacts/meeting.h"
 #include "state/prefetch.h"
 
-/// What the rows need of bodies and contacts, gathered before the sub-steps.
+/// Gathers what the rows need of bodies and contacts, before the sub-steps.
 
 namespace tweenfall::blocks {
 
@@ -128,8 +128,8 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
         if (end != joints::JointLink::world) bodies_[places_[end]].jointed = true;
 }
 
-/// @param trembling  in a heap what presses down passes on to all sides: what it makes of so much time is a tremble in
-/// any direction, s
+/// @param trembling  a heap passes weight on to all sides: the speed that gravity gives in this time counts as jitter
+/// in any direction, s
 void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads,
                           double trembling, double dt) {
   closings_.resize(contacts.size());

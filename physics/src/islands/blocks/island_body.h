@@ -24,21 +24,21 @@ inline void set(double (&lanes)[4], const Vec3& value) {
   for (int i = 0; i < 3; ++i) lanes[i] = value[i];
 }
 
-/// Lanes that another lane's contact makes do more than their own adds nothing, which may turn a -0 into a 0: it must
-/// not tell which contacts share a block.
+/// A lane may get more rows than its own contact needs, because another lane's contact does. They add nothing, but may
+/// turn -0 into 0: which contacts share a block must not show in the result.
 [[nodiscard]] inline Vec3 without_sign_of_zero(const Vec3& value) {
   return {value.x() + 0.0, value.y() + 0.0, value.z() + 0.0};
 }
 
-/// What every sub-step needs of a body of an island; of most it needs nothing else.
+/// What every sub-step needs of a body of an island; for most bodies it needs nothing else.
 struct alignas(64) BodyPace {
   double acceleration[4] = {};  ///< mean of the step, free of contacts: x, y, z and nothing
   double mass = 0;              ///< kg
-  double moment = 0;            ///< of an even body, kg m^2
+  double moment = 0;            ///< of a body with `even`, kg m^2
   bool movable = false;
-  bool even = false;      ///< the same moment about every axis, and no torque: its spin changes by contacts alone
-  bool steady = false;    ///< even, and no drag: its velocity changes by the acceleration and by contacts alone
-  bool unturned = false;  ///< a steady ball: how it lies is found when the step is over
+  bool even = false;      ///< the same moment about every axis, and no torque: only contacts change its spin
+  bool steady = false;    ///< even, and no drag: only the acceleration and contacts change its velocity
+  bool unturned = false;  ///< a steady ball: its rotation is computed after the step
   bool impact = false;    ///< meets something in this step: its velocity jumps
   bool touched = false;   ///< an impulse reached it in this step
   bool pressed = false;   ///< an impulse reached it in this sub-step
@@ -56,8 +56,8 @@ struct alignas(64) IslandBody {
   bool held = false;       ///< a drive or a stiff spring holds it
   bool pulled = false;     ///< by a drive without a limit: a soft contact would not hold against it
   bool saturated = false;  ///< its drive is at its limit
-  bool conveys = false;    ///< its surface moves against it
-  Twist surface;           ///< so, at the center of mass, world axes
+  bool conveys = false;    ///< its surface moves relative to it
+  Twist surface;           ///< how its surface moves, at the center of mass, world axes
   double given = 1;        ///< share of an impulse that such a drive lets through
   double turned = 0;       ///< since its rows were prepared, rad
   double drag = 0;         ///< 1/s, taken implicitly
@@ -66,9 +66,9 @@ struct alignas(64) IslandBody {
   Mat3 inverse_inertia = Mat3::Zero();  ///< world axes, when its rows were prepared
   Vec3 center{0, 0, 0}, start_center{0, 0, 0};
   Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
-  Vec3 turning{0, 0, 0};  ///< so little that it is not part of the rotation yet, rad
+  Vec3 turning{0, 0, 0};  ///< too little to be part of the rotation yet, rad
 
-  /// How it lies now.
+  /// Its present rotation.
   [[nodiscard]] Quat turned_rotation() const {
     if (turning == Vec3::Zero()) return rotation;
     Quat now = exp_map(turning) * rotation;
@@ -77,7 +77,7 @@ struct alignas(64) IslandBody {
   }
 
   Quat free_rotation{1, 0, 0, 0};     ///< at the end of the sub-step if nothing touches it
-  std::uint32_t led = step::not_led;  ///< which of those that are led
+  std::uint32_t led = step::not_led;  ///< its index among the led bodies
 
   // At the start of the sub-step
   Vec3 sub_step_center{0, 0, 0};

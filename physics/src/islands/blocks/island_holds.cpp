@@ -13,7 +13,7 @@ using step::SolverBody;
 
 namespace {
 
-/// A body as rows that are solved one by one see it.
+/// The body as rows that are solved one by one need it.
 SolverBody seen(const IslandBody& entry, const BodyLanes& velocity) {
   SolverBody body;
   body.surface = entry.surface;
@@ -31,7 +31,7 @@ void give(const SolverBody& body, BodyLanes& velocity) {
   set(velocity.angular, body.angular);
 }
 
-/// Lets `act` change the velocities of two bodies; the second place may be nobody's.
+/// Lets `act` change the velocities of two bodies; the second place may stand for no body.
 template <class Act>
 void between(std::uint32_t a, std::uint32_t b, const std::vector<IslandBody>& entries,
              std::vector<BodyLanes>& velocities, const Act& act) {
@@ -128,7 +128,7 @@ void IslandHolds::solve_drive(HeldByDrive& held, const std::vector<Body>& bodies
     entry.saturated = entry.saturated || size > most;
     return size > most ? Vec3(impulse * (most / size)) : impulse;
   };
-  // Velocity as it would be without the pull: all else included, the drive's own impulse taken out.
+  // Velocity as it would be without the pull: everything else included, the drive's own impulse removed.
   const Vec3 linear = linear_of(velocity) - entry.inverse_mass * held.impulse;
   held.impulse =
       within(((linear + law.linear) / (1 + law.stiffness) - linear) / entry.inverse_mass, body.drive.max_force * h_);

@@ -9,14 +9,15 @@
 
 namespace tweenfall::blocks {
 
-/// What holds bodies of an island beside contacts and joints, one by one: drives, stiff springs, resistance to rolling.
+/// What holds bodies of an island besides contacts and joints, one by one: drives, stiff springs, resistance to
+/// rolling.
 class IslandHolds {
  public:
-  /// Softens what drives without a limit pull, so that contacts and joints have to move what they hold, too.
+  /// Softens the pull of drives without a limit, so that contacts and joints have to move what they hold, too.
   /// @param driven  a drive holds some body
   void gather(const islands::IslandContents& island, const std::vector<state::Body>& bodies,
               const std::vector<std::uint32_t>& places, std::vector<IslandBody>& entries, bool driven, double h);
-  /// Finds what resists rolling, with the impulses that it kept.
+  /// Finds resistances to rolling, with the impulses that they kept.
   void gather(const ContactBlocks& contacts, double h);
   [[nodiscard]] bool empty() const { return drives_.empty() && springs_.empty() && rolls_.empty(); }
 
@@ -25,9 +26,9 @@ class IslandHolds {
                       std::vector<BodyLanes>& velocities, double ahead);
   void solve(const std::vector<state::Body>& bodies, std::vector<IslandBody>& entries, const ContactBlocks& contacts,
              std::vector<BodyLanes>& velocities);
-  /// Adds up what the sub-step did.
+  /// Adds up the impulses of the sub-step.
   void add_up() const;
-  /// Gives the rolling impulses back to the contacts.
+  /// Returns the rolling impulses to the contacts.
   void store() const;
 
  private:

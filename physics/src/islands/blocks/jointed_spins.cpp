@@ -7,14 +7,14 @@ namespace tweenfall::blocks {
 
 namespace {
 
-/// In a sub-step, rad: what turns further is not followed, and what turns by less has nothing worth following.
+/// Per sub-step, rad: larger turns are not followed, and smaller ones have nothing worth following.
 constexpr double followable_turn = 1, noticeable_turn = 0.02;
-/// Pieces of half a sub-step: with so little of a turn in each, a spin loses less than a millionth in a thousand.
+/// Largest turn of a piece of half a sub-step: with this, a spin loses less than a millionth in a thousand.
 constexpr double turn_of_a_piece = 0.15;
 
 }  // namespace
 
-/// By Euler's equations and the classic method of Runge and Kutta.
+/// By Euler's equations and the classic Runge-Kutta method.
 Vec3 JointedSpins::after_half(const Spin& spin, const state::Body& body, const Vec3& start) {
   const Mat3& inertia = body.mass().inertia;
   const auto rate = [&](const Vec3& at) -> Vec3 {
@@ -41,7 +41,7 @@ Vec3 JointedSpins::begin_sub_step(std::size_t place, const state::Body& body, co
   spin.rotation = rotation;
   spin.torque = rotation.conjugate() * load.torque;
   spin.bent = Vec3::Zero();
-  // Body axes of the middles and of the instant between see the spin alike: it turns the body about itself.
+  // The body axes at the middle and at the instant between show the same spin, as it turns the body about itself.
   spin.at_impulse = after_half(spin, body, rotation.conjugate() * angular);
   spin.flown = after_half(spin, body, spin.at_impulse);
   return rotation * spin.flown;

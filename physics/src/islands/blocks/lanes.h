@@ -1,6 +1,6 @@
 #pragma once
 
-/// Eight doubles side by side, as they stand in memory: one for each of as many pairs of bodies.
+/// Eight doubles side by side, as they lie in memory: one for each of eight pairs of bodies.
 
 #include <cstdint>
 
@@ -8,7 +8,7 @@ namespace tweenfall::blocks {
 
 constexpr int lane_count = 8;
 
-/// One thing of each lane.
+/// One value per lane.
 template <class Thing>
 struct alignas(64) InLanes {
   Thing lanes[lane_count];
@@ -19,7 +19,7 @@ struct alignas(64) InLanes {
 using Lanes = InLanes<double>;
 using Mask = InLanes<std::int64_t>;  ///< -1 or 0
 
-/// The same in all lanes.
+/// The same value in all lanes.
 [[nodiscard]] constexpr Lanes all(double value) {
   return {{value, value, value, value, value, value, value, value}};
 }

@@ -1,7 +1,7 @@
 #include "islands/blocks/contact_blocks.h"
 #include "step/contact_rows.h"
 
-/// What is carried by a body that is led.
+/// Bodies carried by a led one.
 
 namespace tweenfall::blocks {
 
@@ -12,7 +12,7 @@ namespace {
 
 struct Arms {
   Vec3 a, b;            ///< from the centers to the contact
-  Vec3 core_a, core_b;  ///< less the round skins
+  Vec3 core_a, core_b;  ///< without the round skins
 };
 
 Arms arms_of(const ContactConstraint& contact, std::size_t i, const IslandBody& a, const IslandBody& b) {

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-/// How bodies move through a sub-step: begun by forces, ended by the velocities that the rows leave.
+/// How bodies move through a sub-step: forces begin it, and the velocities that the rows leave end it.
 
 namespace tweenfall::blocks {
 
@@ -14,12 +14,13 @@ using state::Body;
 
 namespace {
 
-/// Turns of an even body are put together until they are more than this, rad: they add up to within its square.
+/// Turns of an even body are added up until they exceed this, rad: the sum is right to within its square.
 constexpr double hardly_turned = 1e-7;
-/// Up to this turn in a sub-step a pressed body's spin changes by itself as two evaluations of Euler's equations say.
+/// Up to this turn in a sub-step, the own change of a pressed body's spin comes from two evaluations of Euler's
+/// equations.
 constexpr double slow_turn = 0.05;
 
-/// Angular velocity after the time h in which a body's spin and the torque on it change it, to second order.
+/// Angular velocity after a body's spin and torque have changed it for the time h, to second order.
 Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec3& torque, double h) {
   const Quat back = rotation.conjugate();
   const Vec3 spin = back * angular;
@@ -84,7 +85,7 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
   });
 }
 
-/// What is led goes through the sub-step by its mean velocity, so that it is where its path is at the end.
+/// A led body moves through the sub-step by its mean velocity, so that it is where its path is at the end.
 void BlockSolver::lead(double dt, int sub_steps, int sub_step) {
   const double from = static_cast<double>(sub_step) / sub_steps;
   const double to = static_cast<double>(sub_step + 1) / sub_steps;
@@ -98,7 +99,7 @@ void BlockSolver::lead(double dt, int sub_steps, int sub_step) {
   }
 }
 
-/// Then what it carries gets its velocity there.
+/// Afterwards the bodies it carries get the velocity at the end.
 void BlockSolver::end_lead() {
   for (const step::LedBody& led : led_) {
     set(velocities_[led.place].linear, led.ending.linear);
@@ -145,7 +146,7 @@ void BlockSolver::end_sub_step(double h) {
         displacement.linear[k] += moved[k];
       }
       if (pace.unturned) {
-        // What rolls has the mean of its spins.
+        // A rolling body has the mean of its spins.
         const double kept = pace.impact ? 1 : 0.5;
         for (int k = 0; k < 3; ++k)
           displacement.angular[k] += (kept * velocity.angular[k] + (1 - kept) * starts_[i].angular[k]) * h;

@@ -13,7 +13,7 @@ namespace tweenfall::blocks {
 
 namespace {
 
-/// A change of velocity of this part of what counts as a tremble is left to the next sub-step.
+/// A change of velocity below this part of the jitter is left to the next sub-step.
 constexpr double quiet = 0.1;
 
 double dot(const double (&a)[4], const double (&b)[4]) {
@@ -111,7 +111,7 @@ bool BlockSolver::move_by(const Rebound& rebound, const Contact& contact) {
     if (turning == Vec3::Zero()) return;
     for (int i = 0; i < 3; ++i) displacement.angular[i] += turning[i];
     if (!body.round) body.turned += turning.norm();
-    // Its rows are prepared again whether or not another body turns that is solved at the same time.
+    // Its rows are prepared again, whether or not another body that is solved at the same time turns.
     stale = stale || body.turned > turned_enough_;
     body.rotation = exp_map(turning) * body.rotation;
     body.rotation.normalize();
@@ -121,7 +121,7 @@ bool BlockSolver::move_by(const Rebound& rebound, const Contact& contact) {
   return stale;
 }
 
-/// What moves by its own will does work on what it pushes, J.
+/// Work of bodies that move by their own will on what they push, J.
 double BlockSolver::work_of_driven() const {
   double sum = 0;
   for (std::size_t i = contacts_.pairs; i < contacts_.blocks.size(); ++i)
@@ -151,7 +151,7 @@ double BlockSolver::work_of_driven() const {
   return sum;
 }
 
-/// Takes back as much of the rebound as would leave an island more energy than it had and than was put into it.
+/// Takes back as much of the rebound as would leave an island with more energy than it had and was given.
 void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads) {
   // The work of a surface is not known: the island is left as it is.
   if (conveyed_) return;
@@ -207,7 +207,7 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
     course.rotation = entry.rotation;
     energy.add(bodies[entry.index], loads[entry.index], course);
   }
-  // What moves by its own will is in islands that are solved alone.
+  // Bodies that move by their own will are in islands that are solved alone.
   if (!led_.empty()) {
     islands::IslandEnergy& energy = energies_.front();
     energy.limit += work_of_driven();
@@ -278,7 +278,7 @@ void BlockSolver::rebound(const std::vector<state::Body>& bodies, const std::vec
       if (pressed(rebound)) reach_.look_at(rebound.lane, shared);
     }
   });
-  // Contacts of one color push no body of each other: they are looked at in any order, or at once.
+  // Contacts of one color push no body of each other: they are visited in any order, or at once.
   for (int pass = 0; pass < passes; ++pass) {
     bool any = false;
     for (const ContactBlocks::Stretch& stretch : contacts_.stretches) {
@@ -290,7 +290,7 @@ void BlockSolver::rebound(const std::vector<state::Body>& bodies, const std::vec
         for (const std::uint32_t lane : due.subspan(begin, end - begin)) {
           reach_.take(lane, contacts_, bodies_);
           reach_.with(lane, [&](auto& contact) {
-            // Where it pushes on, the neighbors are to be looked at, too.
+            // If it passes a push on, its neighbors must be visited, too.
             if (contact.solve(velocities_) > quiet * contact.tremble())
               for (const std::uint32_t place : {contact.a(), contact.b()})
                 if (bodies_[place].movable) reach_.push(place, lane, shared);

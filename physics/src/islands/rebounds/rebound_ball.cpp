@@ -21,7 +21,7 @@ void ReboundBall::take(const ContactBlocks& contacts, std::uint32_t index) {
   wanted_ = 0;
   tremble_ = contacts.ball_meetings[i].tremble[lane];
   friction_ = friction_before_ = lane_of(block.friction, lane);
-  // Of most contacts nothing but their lane is looked at.
+  // For most contacts, only the lane is read.
   grips_ = block.hard[lane] != 0 && contacts.ball_origins[i][static_cast<std::size_t>(lane)]->impact;
   if (!grips_) return;
   coefficient_ = block.coefficient[lane];

@@ -5,17 +5,17 @@
 
 namespace tweenfall::blocks {
 
-/// What `ReboundContact` is to other contacts, for those of a BallBlock: without friction it is looked at in two lines
-/// of a processor's memory, and of a heap that is what the time goes for.
+/// The counterpart of `ReboundContact` for contacts of a BallBlock: without friction it fits into two cache lines, and
+/// memory is what takes the time in a heap.
 class alignas(64) ReboundBall {
  public:
   /// @param lane  8 * block + lane; balls come after all blocks
   void take(const ContactBlocks& contacts, std::uint32_t lane);
-  /// It shall leave with this speed.
+  /// Sets the speed with which it should leave.
   void want(std::size_t, double speed) { wanted_ = speed; }
   /// @return the change of velocity, m/s
   double solve(std::vector<BodyLanes>& velocities);
-  /// Lets only a share of what changed through.
+  /// Lets only a share of the change through.
   void take_back(double share);
   /// See ReboundContact::put_back.
   void put_back(ContactBlocks& contacts) const;
@@ -31,13 +31,13 @@ class alignas(64) ReboundBall {
   [[nodiscard]] double speed(std::size_t, const std::vector<BodyLanes>& velocities) const {
     return normal_.dot(linear_of(velocities[b_]) - linear_of(velocities[a_]));
   }
-  // Along the line to the middle nothing is turned.
+  // An impulse along the line of centers turns nothing.
   [[nodiscard]] Vec3 turn_a(std::size_t) const { return {0, 0, 0}; }
   [[nodiscard]] Vec3 turn_b(std::size_t) const { return {0, 0, 0}; }
 
  private:
   double solve_friction(BodyLanes& a, BodyLanes& b);
-  /// What nothing moves others may look at meanwhile: it is left alone.
+  /// Other threads may read an immovable body meanwhile: it is not written.
   void push(BodyLanes& a, BodyLanes& b, const Vec3& impulse) const {
     if (inverse_mass_a_ > 0) add(a.linear, -inverse_mass_a_ * impulse);
     if (inverse_mass_b_ > 0) add(b.linear, inverse_mass_b_ * impulse);

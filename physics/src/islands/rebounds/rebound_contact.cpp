@@ -17,7 +17,7 @@ void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, co
   inverse_mass_b_ = block.inverse_mass_b[lane];
   normal_ = lane_of(block.normal, lane);
   coefficient_ = block.coefficient[lane];
-  // Of most contacts nothing but their lane is looked at.
+  // For most contacts, only the lane is read.
   grips_ = block.hard[lane] != 0 && contact.impact;
   body_a_ = &bodies[a_];
   body_b_ = &bodies[b_];

@@ -7,19 +7,19 @@
 
 namespace tweenfall::blocks {
 
-/// A contact that a rebound reaches, taken out of its lane while the rebound is being solved: only few are, and each is
-/// looked at several times.
+/// A contact that a rebound reaches, taken out of its lane while the rebound is being solved: only few are reached, and
+/// each is visited several times.
 class ReboundContact {
  public:
   /// @param lane  8 * block + lane
   void take(const ContactBlocks& contacts, std::uint32_t lane, const std::vector<IslandBody>& bodies);
-  /// Point `i` shall leave with this speed.
+  /// Sets the speed with which point `i` should leave.
   void want(std::size_t i, double speed) { points_[i].wanted = speed; }
   /// One pass over its points. @return the change of velocity, m/s
   double solve(std::vector<BodyLanes>& velocities);
-  /// Lets only a share of what changed through.
+  /// Lets only a share of the change through.
   void take_back(double share);
-  /// Adds what it gave to the totals. A blow says nothing about the forces after it: the next sub-step begins with the
+  /// Adds what it gave to the totals. A blow says nothing about the forces after it: the next sub-step starts with the
   /// impulses from before the rebound, and with none where something bounced off.
   void put_back(ContactBlocks& contacts) const;
 
@@ -34,7 +34,7 @@ class ReboundContact {
   [[nodiscard]] double given(std::size_t i) const { return points_[i].impulse - points_[i].before; }
   /// How fast a point opens, m/s.
   [[nodiscard]] double speed(std::size_t i, const std::vector<BodyLanes>& velocities) const;
-  /// Work that what the rebound gave does on a body by this velocity of the other, which nothing else changes, J.
+  /// Work that the impulse of the rebound does on a body, by the velocity of the other, which nothing else changes, J.
   [[nodiscard]] double work(const BodyLanes& will, bool a_moves) const;
 
  private:
@@ -49,7 +49,7 @@ class ReboundContact {
     double drift1 = 0, drift2 = 0;  ///< of the surfaces, m/s
   };
   double solve_friction(Friction& row, double limit, BodyLanes& a, BodyLanes& b) const;
-  // What nothing moves others may look at meanwhile: it is left alone.
+  // Other threads may read an immovable body meanwhile: it is not written.
   void turn(BodyLanes& a, BodyLanes& b, const Vec3& turn_a, const Vec3& turn_b) const;
   void push(BodyLanes& a, BodyLanes& b, const Vec3& impulse) const;
 

@@ -12,18 +12,18 @@
 
 namespace tweenfall::blocks {
 
-/// The contacts that a rebound reaches, and which of them are to be looked at again because a body of theirs was
-/// pushed. Contacts are told by lanes: 8 * block + lane, balls after all blocks.
+/// The contacts that a rebound reaches, and which of them must be visited again because one of their bodies was
+/// pushed. Contacts are identified by lanes: 8 * block + lane, balls after all blocks.
 class ReboundReach {
  public:
-  /// The blocks have others in them.
+  /// Call it when the blocks have other contacts.
   void forget() { starts_.clear(); }
-  /// Nothing is reached yet.
+  /// Starts with nothing reached.
   void begin(const ContactBlocks& contacts, const std::vector<IslandBody>& bodies,
              const std::vector<BodyLanes>& velocities);
-  /// Room for the contacts of these lanes, each told once: those that were not reached before are to be taken.
+  /// Makes room for the contacts of these lanes, each named once: those that are new must then be taken.
   void reach(std::span<const std::uint32_t> lanes);
-  /// The contact of a lane as it stands in its block, if it is one of those. Of several lanes by several threads.
+  /// Takes the contact of a lane from its block if it is new. Several threads may take different lanes.
   void take(std::uint32_t lane, const ContactBlocks& contacts, const std::vector<IslandBody>& bodies) {
     const std::uint32_t place = slots_[lane] - 1;
     if (lane >= first_ball_) {
@@ -46,12 +46,12 @@ class ReboundReach {
     else
       word.store(word.load(std::memory_order_relaxed) | bit, std::memory_order_relaxed);
   }
-  /// All other contacts of a movable body are to be looked at.
+  /// Marks all other contacts of a movable body as due.
   void push(std::uint32_t place, std::uint32_t by, bool shared) {
     for (std::uint32_t i = starts_[place]; i < starts_[place + 1]; ++i)
       if (lanes_[i] != by) look_at(lanes_[i], shared);
   }
-  /// Which of these are to be looked at, in order, and from now on no more.
+  /// Returns those of a stretch that are due, in order, and clears their marks.
   [[nodiscard]] std::span<const std::uint32_t> due(const ContactBlocks::Stretch& stretch);
 
   [[nodiscard]] std::span<ReboundContact> contacts() { return std::span(contacts_).first(contact_count_); }
@@ -63,11 +63,11 @@ class ReboundReach {
   std::vector<std::uint32_t> starts_, lanes_;     ///< by place: the contacts of each movable body
   std::vector<std::atomic<std::uint64_t>> open_;  ///< bits of lanes
   std::vector<std::uint32_t> due_;
-  std::vector<std::uint32_t> slots_;  ///< by lane: one more than where it is in its list; 0 for nowhere
+  std::vector<std::uint32_t> slots_;  ///< by lane: its index in the list of its kind, plus one; 0 for none
   std::vector<ReboundContact> contacts_;
   std::vector<ReboundBall> balls_;
   std::size_t contact_count_ = 0, ball_count_ = 0;    ///< how many of them are reached
-  std::size_t known_contacts_ = 0, known_balls_ = 0;  ///< and how many of those are taken
+  std::size_t known_contacts_ = 0, known_balls_ = 0;  ///< how many of those are taken
   std::size_t first_ball_ = 0;                        ///< lane
   std::vector<BodyLanes> before_;
 };

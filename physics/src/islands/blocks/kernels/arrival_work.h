@@ -7,7 +7,7 @@
 
 namespace tweenfall::blocks {
 
-/// Which contacts arrive within a sub-step, and what those that press hold of their bodies.
+/// Finds contacts that arrive within a sub-step, and how far pressed contacts hold their bodies.
 template <class Register>
 struct ArrivalWork : LaneWork<Register> {
   using Lanes = LaneWork<Register>;
@@ -18,7 +18,7 @@ struct ArrivalWork : LaneWork<Register> {
   using typename Lanes::Vector;
   using typename Lanes::Which;
 
-  /// Lags of bodies, less what a contact along the normal holds.
+  /// Reduces lags of bodies by what a contact along the normal holds.
   TWEENFALL_LANES static void hold_lags(BodyLag* lags, const std::uint32_t* at, const std::uint32_t* to,
                                         const Vector& normal, const Which& pressed, const Which& wholly) {
     const double* from[lane_count];
@@ -52,7 +52,7 @@ struct ArrivalWork : LaneWork<Register> {
     hold_lags(rows.lags, block.b, block.to_b, block.normal, pressed, none);
   }
 
-  /// Which points arrive within the sub-step, and fast enough.
+  /// Which points arrive within the sub-step fast enough.
   TWEENFALL_LANES static Which meeting(const MeetingRow& row, const Number& gap, const Number& closing,
                                        const Number& mass, double h) {
     const Number zero(0.0), pull = row.pull, tremble = row.tremble;

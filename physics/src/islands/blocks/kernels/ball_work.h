@@ -45,7 +45,7 @@ struct BallWork : LaneWork<Register> {
     const Number along = dot(normal, relative);
     const Vector slip = relative - along * normal -
                         cross(Number(block.arm_a) * balls.angular_a + Number(block.arm_b) * balls.angular_b, normal);
-    // What would stop the slip points against it: brought back to the cone's edge it opposes the slip exactly.
+    // The impulse that would stop the slip points against it: scaled back onto the cone, it opposes the slip exactly.
     Vector friction = before - Number(block.slip_mass) * slip;
     const Number limit = Number(block.coefficient) * impulse_before;
     const Number square = dot(friction, friction), most = limit * limit;

@@ -4,7 +4,7 @@
 
 namespace tweenfall::blocks {
 
-/// Passes over contacts of points with friction.
+/// Passes over contacts with several points and friction.
 template <class Register>
 struct ContactWork : LaneWork<Register> {
   using Lanes = LaneWork<Register>;
@@ -20,11 +20,11 @@ struct ContactWork : LaneWork<Register> {
   using typename Lanes::Watched;
   using typename Lanes::Which;
 
-  /// Two bodies in each lane. Along the normal and the tangents their relative speed is kept by itself, so that a row
-  /// changes numbers and not vectors; in the end their velocities get the sum of what the rows gave.
+  /// Two bodies in each lane. Their relative speed along the normal and the tangents is stored by itself, so that a row
+  /// changes numbers rather than vectors; at the end their velocities get the sum of what the rows gave.
   struct Pair {
     Vector linear_a, angular_a, linear_b, angular_b;
-    Number along, slip1, slip2;         ///< of the linear velocities, b against a
+    Number along, slip1, slip2;         ///< of the linear velocities, b relative to a
     Number pushed, dragged1, dragged2;  ///< N s
   };
 
@@ -111,7 +111,7 @@ struct ContactWork : LaneWork<Register> {
     const Number most = limit * limit;
     const Which outside = next1 * next1 + next2 * next2 > most;
     if (outside.any()) {
-      // A step along the slip brought back to the cone's edge: in the end friction opposes the slip exactly.
+      // A step along the slip, scaled back onto the cone: in the end friction opposes the slip exactly.
       const Number edge1 = first - row.firm * slip1;
       const Number edge2 = second - row.firm * slip2;
       const Number square = edge1 * edge1 + edge2 * edge2;
@@ -153,7 +153,7 @@ struct ContactWork : LaneWork<Register> {
     return first * first + second * second < Number(0.999) * most * most;
   }
 
-  /// What friction holds, and what slides on the edge of the cone.
+  /// Records what friction holds, and what slides on the edge of the cone.
   TWEENFALL_LANES static void note_grip(const PointRow* points, const FrictionRow* frictions, ContactBlock& block) {
     Number pressing(0.0);
     Which held = pressing > pressing;

@@ -11,7 +11,7 @@ namespace tweenfall::blocks {
 
 namespace {
 
-/// What is done with blocks, in registers of one kind.
+/// Operations on blocks, in registers of one kind.
 template <class Register>
 struct RowWork {
   using Contacts = ContactWork<Register>;
@@ -46,7 +46,7 @@ struct RowWork {
   };
 };
 
-/// Balls and blocks of two movable bodies, then those of one.
+/// Balls and blocks of two movable bodies first, then those of one.
 template <class Work>
 TWEENFALL_LANES void do_all(const Rows& rows, const Work& work) {
   for (std::size_t i = 0; i < rows.ball_pairs; ++i) work(rows.balls[i]);
@@ -79,7 +79,7 @@ constexpr Kernels plain = {warm_start_plain, solve_plain, hold_plain, find_meeti
 TWEENFALL_KERNELS(avx2, Halves<Four>, [[gnu::target("avx2")]])
 TWEENFALL_MEETINGS(avx2, Halves<Four>, [[gnu::target("avx2")]])
 constexpr Kernels avx2 = {warm_start_avx2, solve_avx2, hold_avx2, find_meetings_avx2};
-// What comes of several comparisons g++ finds number by number where eight are compared at once, so not here.
+// With eight comparisons at once, g++ evaluates their combination number by number, so it is avoided here.
 TWEENFALL_KERNELS(avx512, Eight, [[gnu::target("avx512f,avx512vl,avx512dq")]])
 constexpr Kernels avx512 = {warm_start_avx512, solve_avx512, hold_avx512, find_meetings_avx2};
 #endif

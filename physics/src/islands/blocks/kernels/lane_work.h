@@ -4,10 +4,10 @@
 
 namespace tweenfall::blocks {
 
-/// Of a speed, the part that what is added to it and taken away again may leave.
+/// Rounding that adding to a speed and subtracting again may leave, relative.
 constexpr double rounding_of_speed = 1e-15;
 
-/// What all work on blocks begins with, in registers of one kind: the velocities of eight bodies at once, and when
+/// The basis of all work on blocks, in registers of one kind: the velocities of eight bodies at once, and when
 /// passes over rows may end.
 template <class Register>
 struct LaneWork {
@@ -46,18 +46,18 @@ struct LaneWork {
     return greater(v.x, -v.x) + (greater(v.y, -v.y) + greater(v.z, -v.z));
   }
 
-  /// Looks on while rows change: of a single pass nothing is asked.
+  /// Watches rows during a single pass: there is nothing to decide.
   struct Unwatched {
     TWEENFALL_LANES Number keep(const Number& next, const Number&) const { return next; }
     TWEENFALL_LANES void note(const Number&, const Number&) const {}
   };
-  /// Of several passes, what has settled stays as it is.
+  /// With several passes, settled lanes stay as they are.
   struct Watched {
     Number enough;
     Which stirs, changed;
 
-    /// @param given  the speed that the impulses at the start have given
-    /// @param speed  the greatest there is, or more
+    /// @param given  the speed that the impulses at the start gave
+    /// @param speed  an upper bound of all speeds
     TWEENFALL_LANES Watched(const PassRule& rule, const Number& given, const Number& speed)
         : enough(rule.enough * given + Number(rounding_of_speed) * speed) {
       const Number zero(0.0);
@@ -66,11 +66,11 @@ struct LaneWork {
     }
     TWEENFALL_LANES Number keep(const Number& next, const Number& before) const { return select(stirs, next, before); }
     /// @param change  of an impulse
-    /// @param mass  what a unit of speed takes
+    /// @param mass  impulse per unit of speed
     TWEENFALL_LANES void note(const Number& change, const Number& mass) {
       changed = changed | (greater(change, -change) > enough * mass);
     }
-    /// After a pass. @return whether there is anything left to do
+    /// After a pass. @return whether anything is left to do
     TWEENFALL_LANES bool goes_on() {
       stirs = stirs & changed;
       changed = enough > enough;
@@ -78,7 +78,7 @@ struct LaneWork {
     }
   };
 
-  /// The impulse along the normal by which two bodies with this gap and closing speed get on.
+  /// The impulse along the normal that two bodies with this gap and closing speed need next.
   TWEENFALL_LANES static Number next_normal(const Number& gap, const Number& impulse, const Number& mass,
                                             const Mask& hard, const Number& speed, const PassRule& rule) {
     const Number zero(0.0), one(1.0);

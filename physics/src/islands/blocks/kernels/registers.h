@@ -1,7 +1,7 @@
 #pragma once
 
 /// Lanes while they are worked on, in as many registers as they fill. Each operation rounds as it does for one double,
-/// so that the bits are the same whatever the processor does at once.
+/// so that the bits are the same however many numbers the processor handles at once.
 
 #include <cstddef>
 
@@ -9,14 +9,14 @@
 
 namespace tweenfall::blocks {
 
-/// What is inlined into a function takes that function's instruction set.
+/// An inlined function takes the instruction set of its caller.
 #define TWEENFALL_LANES [[gnu::always_inline]] inline
 
-// How vectors would be passed to functions that are not inlined does not matter here: all are.
+// How vectors are passed to functions that are not inlined does not matter here: all are inlined.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-/// How many of the versions of kernels this processor runs, that stand in the order plain, AVX2, AVX-512.
+/// How many of the kernel versions this processor can run, in the order plain, AVX2, AVX-512.
 [[nodiscard]] inline std::size_t possible_versions() noexcept {
 #if defined(__x86_64__) || defined(__i386__)
   if (!__builtin_cpu_supports("avx2")) return 1;
@@ -26,7 +26,7 @@ namespace tweenfall::blocks {
 #endif
 }
 
-/// What one register holds of lanes, and of masks.
+/// The part of lanes, and of masks, that one register holds.
 using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
 using Eight = double __attribute__((vector_size(64)));
@@ -136,7 +136,7 @@ TWEENFALL_LANES Halves<Half> root_of(const Halves<Half>& a) {
   return {root_of(a.low), root_of(a.high)};
 }
 
-/// Which lanes.
+/// A choice of lanes.
 template <class Masks>
 struct Choice {
   Masks of;
@@ -242,7 +242,7 @@ TWEENFALL_LANES void gather(const double* const* rows, Four& x, Four& y, Four& z
   last = __builtin_shufflevector(odd_ab, odd_cd, 2, 3, 6, 7);
 }
 TWEENFALL_LANES void gather(const double* const* rows, Eight& x, Eight& y, Eight& z, Eight& last) {
-  // Of two rows each half holds one, so that no number has to pass between halves more than once.
+  // Each half holds one of two rows, so that no number has to pass between halves more than once.
   const auto joined = [&](int low, int high) -> Eight {
     return __builtin_shufflevector(row<Four>(rows[low]), row<Four>(rows[high]), 0, 1, 2, 3, 4, 5, 6, 7);
   };
