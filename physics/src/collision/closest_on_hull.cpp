@@ -7,7 +7,7 @@ namespace tweenfall::collision {
 
 namespace {
 
-/// The place on a face nearest to a point that lies at a height above its plane.
+/// The point on a face nearest to a point at some height above its plane.
 Vec3 closest_on_face(const ConvexHull& hull, const ConvexHull::Face& face, const Vec3& point, double height) {
   const Vec3 below = point - height * face.normal;
   const std::span<const std::uint32_t> corners = hull.corners(face);
@@ -37,7 +37,7 @@ ClosestOnHull closest_on_hull(const ConvexHull& hull, const Vec3& point) {
     const double height = faces[i].normal.dot(point) - faces[i].offset;
     if (height > closest.distance + (i == 0 ? 0 : tie)) closest = {point, height, i};
   }
-  // Below this the direction from the surface is all rounding.
+  // Below this the direction from the surface is mere rounding.
   if (closest.distance <= 1e-12 * hull.outer_radius()) {
     closest.point = point - closest.distance * faces[closest.face].normal;
     return closest;

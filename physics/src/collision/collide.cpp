@@ -31,7 +31,7 @@ concept HasCore = requires(const A& a, const Placed& at) {
   {convex::core_of(a, at)};
 };
 
-/// Solids that have no way of their own, by the general one, seen from the first.
+/// Solids without an algorithm of their own, by the general one, relative to the first.
 template <class A, class B>
 Manifold collide_cores(const A& a, const Placed& at_a, const B& b, const Placed& at_b, double margin, double reach) {
   const Mat3 into = at_a.axes.transpose();
@@ -49,11 +49,11 @@ Manifold collide_core_with_plane(const A& a, const Placed& at_a, const Plane& pl
   return convex::collide_with_plane(core, normal, offset, margin, reach);
 }
 
-/// Nothing for a pair that only its other order knows, and for two planes, of which neither moves by itself.
+/// Empty for a pair that only exists in the other order, and for two planes, neither of which moves by itself.
 template <class A, class B>
 Manifold collide_solids(const A& a, const Placed& at_a, const B& b, const Placed& at_b, double margin, double reach) {
   if constexpr (CollidesWithin<A, B>) {
-    // Their own way tells whether they touch; how far apart they are only roughly.
+    // Their own algorithm says whether they touch, but only roughly how far apart they are.
     if (std::isinf(margin)) return collide_cores(a, at_a, b, at_b, margin, reach);
     return collide(a, at_a, b, at_b, margin, reach);
   } else if constexpr (Collides<A, B>) {
@@ -87,7 +87,7 @@ Manifold collide_parts(const Shape& a, const Placed& at_a, const Shape& b, const
   return best;
 }
 
-/// Of solids that the general way tells best.
+/// For solids that the general algorithm handles best.
 template <class A, class B>
 Gap gap_between_cores(const A& a, const Placed& at_a, const B& b, const Placed& at_b, double enough) {
   const Mat3 into = at_a.axes.transpose();
@@ -98,7 +98,7 @@ Gap gap_between_cores(const A& a, const Placed& at_a, const B& b, const Placed& 
   return {nearness.distance - around, at_a.axes * nearness.normal};
 }
 
-/// Whether the products that follow stay numbers.
+/// Whether the products that follow stay finite.
 bool is_near(const Pose& pose) noexcept {
   bool near = true;
   for (int i = 0; i < 3; ++i) near = near && std::abs(pose.position[i]) <= 1e60;

@@ -28,9 +28,9 @@ Vec3 support(const Box& box, const Placed& at, const Vec3& direction) {
   return point;
 }
 
-/// Whether what a face of one comes to is all that there is: apart, the other's nearest corner lies over the face, and
-/// nothing is nearer; overlapping, no other face is a shorter way out for that corner, so that no direction is one for
-/// the whole.
+/// Whether the gap at one face is the answer, so that no other direction need be tried: if apart, the other's nearest
+/// corner lies over the face, and nothing is nearer; if overlapping, no other face is a shorter way out for that
+/// corner.
 /// @param out  the face's normal
 bool is_all(const Box& one, const Placed& at_one, int axis, double gap, const Box& other, const Placed& at_other,
             const Vec3& out) {
@@ -43,8 +43,8 @@ bool is_all(const Box& one, const Placed& at_one, int axis, double gap, const Bo
 }
 
 /// The axis along which the boxes are farthest apart, or overlap least. Near ties go to a's faces, then b's, then to
-/// edges, so that the choice does not change from step to step; but what one axis tells apart by more than the margin
-/// is apart. Source: Gottschalk, Lin, Manocha, OBBTree, SIGGRAPH 1996.
+/// edges, so that the choice does not change from step to step; but an axis that separates them by more than the margin
+/// is taken anyway. Source: Gottschalk, Lin, Manocha, OBBTree, SIGGRAPH 1996.
 Separation widest(const Box& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin) {
   const Mat3 turn = at_a.axes.transpose() * at_b.axes;
   const Mat3 reach = turn.cwiseAbs();
@@ -68,7 +68,7 @@ Separation widest(const Box& a, const Placed& at_a, const Box& b, const Placed& 
   }
   if (other.gap > best.gap + preference || (other.gap > margin && other.gap > best.gap)) best = other;
   if (best.gap > margin) return best;
-  // Mostly a corner of one lies over a face of the other, and there no edge tells more.
+  // Usually a corner of one lies over a face of the other, and then no edge gives a wider gap.
   if (is_all(a, at_a, first.first, first.gap, b, at_b, first.normal) ||
       is_all(b, at_b, other.second, other.gap, a, at_a, -other.normal))
     return best;
@@ -77,7 +77,7 @@ Separation widest(const Box& a, const Placed& at_a, const Box& b, const Placed& 
     for (int k = 0; k < 3; ++k) {
       Vec3 axis = at_a.axes.col(i).cross(at_b.axes.col(k));
       const double length = axis.norm();
-      if (length < 1e-3) continue;  // parallel edges: a face does it
+      if (length < 1e-3) continue;  // parallel edges: a face covers this
       axis /= length;
       if (axis.dot(between) < 0) axis = -axis;
       const double gap = axis.dot(between) - (at_a.axes.transpose() * axis).cwiseAbs().dot(a.half_extents) -
@@ -102,7 +102,7 @@ struct Polygon {
   }
 };
 
-/// Keeps what lies behind the plane. New corners are named by the plane and the edge it cut.
+/// Keeps the part behind the plane. New corners are named by the plane and the edge it cut.
 Polygon cut(const Polygon& polygon, const Vec3& normal, double offset, std::uint32_t plane, double tolerance) {
   Polygon result;
   for (std::size_t i = 0; i < polygon.count; ++i) {
@@ -169,9 +169,9 @@ void clip_faces(Manifold& manifold, const Box& reference, const Placed& at_refer
               candidates[i].feature | tag << 28, margin);
 }
 
-/// Corners past each other: the sides of the face leave nothing, yet no axis tells the boxes apart by more. What
-/// reaches deepest under the face, a corner or both ends of an edge, brought back to its sides.
-/// `normal` points out of the reference box.
+/// For corners past each other: the sides of the face leave nothing, yet no axis separates the boxes by more. Takes
+/// what reaches deepest under the face, a corner or both ends of an edge, moved back to its sides. `normal` points out
+/// of the reference box.
 void take_deepest(Manifold& manifold, const Box& reference, const Placed& at_reference, int axis, const Vec3& normal,
                   const Box& incident, const Placed& at_incident, double gap, double reach) {
   constexpr double level = 1e-4;  // of a size

@@ -33,14 +33,14 @@ Manifold collide(const Capsule& a, const shapes::Placed& at_a, const Capsule& b,
     t = std::clamp(t, -b.half_height, b.half_height);
     s = std::clamp(along_a + cosine * t, -a.half_height, a.half_height);
   }
-  // Crossed axes that meet: out along their common perpendicular.
+  // Crossed axes that meet: the normal is their common perpendicular.
   Vec3 fallback = axis_a.cross(axis_b);
   fallback = fallback.norm() > 1e-6 ? Vec3(fallback / fallback.norm()) : Vec3(at_a.axes.col(0));
   Manifold manifold =
       collide_balls(at_a.center + s * axis_a, a.radius, at_b.center + t * axis_b, b.radius, fallback, 0, margin);
   if (square_sine > parallel_sine * parallel_sine || a.half_height == 0 || b.half_height == 0) return manifold;
 
-  // Side by side: the ends of the stretch that both share, seen along a.
+  // Side by side: the ends of the stretch that both share, along a.
   const double reach = b.half_height * std::abs(cosine);
   const double low = std::max(-a.half_height, along_a - reach);
   const double high = std::min(a.half_height, along_a + reach);

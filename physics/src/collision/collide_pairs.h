@@ -1,7 +1,7 @@
 #pragma once
 
-/// One function for each pair of solids that has a way of its own; it tells the normal from its first argument toward
-/// its second.
+/// One function for each pair of solids with an algorithm of its own; normals point from the first argument toward
+/// the second.
 
 #include <tweenfall/physics/contact.h>
 
@@ -28,7 +28,7 @@ namespace tweenfall::collision {
 [[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Plane& b, const shapes::Placed& at_b,
                                double margin);
 
-/// Polyhedra: within the margin they touch, and then points with a gap up to the reach are told.
+/// Polyhedra: if they touch within the margin, points with a gap up to the reach are reported.
 [[nodiscard]] Manifold collide(const Box& a, const shapes::Placed& at_a, const Box& b, const shapes::Placed& at_b,
                                double margin, double reach);
 [[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Box& b, const shapes::Placed& at_b,
@@ -36,17 +36,17 @@ namespace tweenfall::collision {
 [[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Hull& b, const shapes::Placed& at_b,
                                double margin, double reach);
 
-/// Contact of two shapes that have been placed: within the margin they touch, and then points with a gap up to the
-/// reach, which is no less, are told.
+/// Contact of two placed shapes: if they touch within the margin, points with a gap up to the
+/// reach are reported, which is at least the margin.
 [[nodiscard]] Manifold collide(const Shape& a, const shapes::Placed& at_a, const Shape& b, const shapes::Placed& at_b,
                                double margin, double reach) noexcept;
 
 /// How far apart shapes are.
 struct Gap {
-  double width = 0;      ///< m; not positive where they touch or overlap
-  Vec3 normal{0, 0, 0};  ///< unit, from a toward b, where they are apart
+  double width = 0;      ///< m; not positive if they touch or overlap
+  Vec3 normal{0, 0, 0};  ///< unit, from a toward b, if they are apart
 };
-/// Of shapes that are wider apart than `enough`: that they are by so much along a direction.
+/// For shapes farther apart than `enough`, a direction along which they are is enough, with the gap along it.
 [[nodiscard]] Gap gap_between(const Shape& a, const shapes::Placed& at_a, const Shape& b, const shapes::Placed& at_b,
                               double enough) noexcept;
 
@@ -57,7 +57,7 @@ inline void add_point(Manifold& manifold, const Vec3& position, double penetrati
   manifold.points[static_cast<std::size_t>(manifold.count++)] = {position, penetration, feature};
 }
 
-/// A manifold told in a solid's own space.
+/// A manifold given in a solid's own space.
 [[nodiscard]] inline Manifold to_world(Manifold manifold, const shapes::Placed& at) {
   manifold.normal = at.axes * manifold.normal;
   for (int i = 0; i < manifold.count; ++i) {
@@ -67,7 +67,7 @@ inline void add_point(Manifold& manifold, const Vec3& position, double penetrati
   return manifold;
 }
 
-/// Contact of two balls: what every round shape comes down to.
+/// Contact of two balls, to which all round shapes reduce.
 [[nodiscard]] Manifold collide_balls(const Vec3& center_a, double radius_a, const Vec3& center_b, double radius_b,
                                      const Vec3& fallback_normal, std::uint32_t feature, double margin);
 

@@ -89,7 +89,7 @@ Manifold collide(const Hull& a, const Placed& at_a, const Plane& b, const Placed
     corners[i] = {position, plane.normal.dot(position) - plane.offset, i};
     least = std::min(least, corners[i].gap);
   }
-  // What is much higher than the lowest is the hull's other side, not what it stands on.
+  // Corners much higher than the lowest belong to the hull's other side, not to the one it stands on.
   const double highest = std::min(margin, least + a.convex.inner_radius());
   std::size_t count = 0;
   for (std::size_t i = 0; i < vertices.size(); ++i)

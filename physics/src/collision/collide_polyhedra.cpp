@@ -17,7 +17,7 @@ using shapes::Placed;
 
 namespace {
 
-/// The face around a vertex that looks most against a direction.
+/// The face at a vertex that faces most against a direction.
 std::uint32_t face_toward(const Polyhedron& polyhedron, std::uint32_t vertex, const Vec3& direction) {
   std::uint32_t best = 0;
   double least = 2;
@@ -32,7 +32,7 @@ std::uint32_t face_toward(const Polyhedron& polyhedron, std::uint32_t vertex, co
   return best;
 }
 
-/// A face of one polyhedron against the other: the face opposite, cut by the sides of the first.
+/// A face of one polyhedron against the other: the opposite face, cut by the sides of the first.
 void clip_onto_face(Manifold& manifold, const Polyhedron& reference, std::uint32_t face, const Polyhedron& incident,
                     std::uint32_t nearest, double margin, std::uint32_t tag) {
   const Vec3& normal = reference.faces[face].normal;
@@ -106,7 +106,7 @@ Manifold collide_polyhedra(const Polyhedron& a, const Polyhedron& b, double marg
     clip_onto_face(manifold, of_a ? a : b, separation.first, of_a ? b : a, separation.second, reach, of_a ? 0 : 1);
   }
   if (manifold.count == 0) {
-    // Corners past each other: the face's sides leave nothing, yet no direction tells the polyhedra apart by more.
+    // Corners past each other: the face's sides leave nothing, yet no direction separates the polyhedra by more.
     const bool of_a = separation.kind == Kind::face_a;
     const Vec3& corner = of_a ? b.vertices[separation.second] : a.vertices[separation.second];
     const double half = of_a ? -0.5 : 0.5;

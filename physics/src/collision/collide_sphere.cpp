@@ -33,12 +33,13 @@ Manifold collide(const Sphere& a, const Placed& at_a, const Box& b, const Placed
   const Vec3 local = at_b.axes.transpose() * (at_a.center - at_b.center);
   const Vec3 closest = local.cwiseMax(-b.half_extents).cwiseMin(b.half_extents);
   const double distance = (local - closest).norm();
-  // Below this the direction from the surface is all rounding.
+  // Below this the direction from the surface is mere rounding.
   const double tiny = 1e-12 * b.half_extents.maxCoeff();
   if (distance > tiny) {
     return collide_balls(at_a.center, a.radius, at_b.center + at_b.axes * closest, 0, Vec3(0, 1, 0), 0, margin);
   }
-  // The center is inside: out through the nearest face; a near tie goes to the first axis, so that it stays there.
+  // The center is inside: out through the nearest face; a near tie goes to the first axis, so that the choice is
+  // stable.
   int face = 0;
   const Vec3 depth = b.half_extents - local.cwiseAbs();
   for (int i = 1; i < 3; ++i)

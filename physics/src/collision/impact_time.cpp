@@ -17,11 +17,11 @@ namespace {
 
 constexpr int most_advances = 48;
 
-/// A plane is taken not to spin.
+/// A plane is assumed not to spin.
 double swing_of(const Body& body, const Vec3& angular) {
   const double spin = angular.norm();
   if (spin == 0 || std::isinf(body.radius())) return 0;
-  // A ball's surface stays where it is when it spins about its center.
+  // A ball's surface does not move when it spins about its center.
   if (std::holds_alternative<Sphere>(body.shape().solid)) return 0;
   return spin * body.radius();
 }
@@ -63,11 +63,11 @@ Course course_of(const Body& body, const forces::Load& load, double dt) {
 
 namespace {
 
-/// How a gap along a direction may change while two shapes go on their ways.
+/// How a gap along a direction may change while two shapes follow their paths.
 struct GapAlong {
   const Course &a, &b;
   Vec3 direction;
-  /// No point leaves the chord of its way along the direction by more than an eighth of this times the square of the
+  /// No point leaves the chord of its path along the direction by more than an eighth of this times the square of the
   /// time, m/s^2.
   double bent = 0;
 
@@ -75,7 +75,7 @@ struct GapAlong {
     bent = std::abs(direction.dot(a.acceleration - b.acceleration)) + a.angular.norm() * a.swing +
            b.angular.norm() * b.swing;
   }
-  /// The gap at a time, by no more than its rounding too small; -infinity where it is not known, m.
+  /// The gap at a time, too small by no more than its rounding; -infinity if it is not known, m.
   [[nodiscard]] double at(double time) const {
     const shapes::Placed at_a = shapes::place(*a.shape, a.at(time).node(*a.body)),
                          at_b = shapes::place(*b.shape, b.at(time).node(*b.body));
@@ -85,10 +85,10 @@ struct GapAlong {
   }
 };
 
-/// For how long of a stretch of time a gap stays open that is `gap` at its beginning and `end` at its end.
-/// @return parts of the stretch: 1 for all of it
+/// How long a gap stays open during a stretch of time, if it is `gap` at its beginning and `end` at its end.
+/// @return a part of the stretch: 1 for all of it
 double open_for(double gap, double end, double bent, double stretch) {
-  // It is no less than gap + (end - gap) x - bow x (1 - x).
+  // The gap is at least gap + (end - gap) x - bow x (1 - x).
   const double bow = 0.5 * bent * stretch * stretch;
   const double falls = gap - end + bow;
   if (!(falls > 0)) return 1;
@@ -105,7 +105,7 @@ bool stay_apart(const Course& a, const Course& b, const Vec3& direction, double 
   const double swing_a = a.swing, swing_b = b.swing;
   if (gap > 2 * hair + std::max(0.0, closing + swing_a + swing_b) * left) return true;
   if (swing_a + swing_b == 0) return false;
-  // What is apart by more than it bends at both ends is so between them.
+  // If shapes are farther apart at both ends than their paths bend, they are apart in between.
   const GapAlong along(a, b, direction);
   const double least = 2 * hair + 0.125 * along.bent * left * left;
   return gap > least && along.at(dt) > least;
@@ -119,13 +119,13 @@ std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
   const Vec3 last = a.linear - b.linear + (a.acceleration - b.acceleration) * dt;
   for (int i = 0; i < most_advances; ++i) {
     const Vec3 now = a.linear - b.linear + (a.acceleration - b.acceleration) * time;
-    // What is wider apart than this along any direction does not meet in the time that is left.
+    // Shapes farther apart than this along any direction do not meet in the time that is left.
     const double reachable = (std::max(now.norm(), last.norm()) + swing) * (dt - time) + hair;
     const auto [gap, normal] = gap_between(*a.shape, shapes::place(*a.shape, a.at(time).node(*a.body)), *b.shape,
                                            shapes::place(*b.shape, b.at(time).node(*b.body)), reachable);
     if (gap <= hair) return time;
     const double closing = std::max(normal.dot(now), normal.dot(last)) + swing;
-    // Half a hair past the gap, so that the end comes after finitely many advances.
+    // Half a hair past the gap, so that it ends after finitely many advances.
     const double open = gap - 0.5 * hair, left = dt - time;
     if (!(closing > 0) || open > closing * left) return std::nullopt;
     double advance = open / closing;

@@ -18,7 +18,7 @@ double support_along(const Passage& passage, const Vec3& direction) {
   return shapes::support_along(passage.course.shape->solid, passage.placed.axes, direction);
 }
 
-/// The face whose normal this is, but for rounding; none when there is no such.
+/// The face with this normal, up to rounding; empty if there is none.
 std::optional<Vec3> face_along(const Passage& passage, const Vec3& normal) {
   const Vec3 local = passage.placed.axes.transpose() * normal;
   const auto is = [&](const Vec3& face) { return (face - local).squaredNorm() < 1e-24; };

@@ -7,9 +7,9 @@ namespace tweenfall::collision {
 
 namespace {
 
-/// Sine of the angle below which two edges count as parallel: a face does it.
+/// Sine of the angle below which two edges count as parallel: a face covers this.
 constexpr double parallel_edges = 1e-3;
-/// Parts of a size by which a later kind of direction must be better.
+/// By how much a later kind of direction must be better, in parts of a size.
 constexpr double kind_preference = 2e-3;
 
 struct FaceGap {
@@ -17,13 +17,13 @@ struct FaceGap {
   std::uint32_t face = 0, vertex = 0;
 };
 
-/// The face of one polyhedron above which all of the other lies highest, and the other's nearest vertex; of faces with
-/// no more than `level` none need be told. Near ties go to the first, but for what is apart by more than the margin.
+/// The face of one polyhedron above which the other lies highest, and the other's nearest vertex; faces with gaps up to
+/// `level` may be skipped. Near ties go to the first face, but gaps beyond the margin count exactly.
 FaceGap widest_face(const Polyhedron& one, const Polyhedron& other, double tie, double level, double margin) {
   FaceGap best;
   for (std::uint32_t i = 0; i < one.faces.size(); ++i) {
     const ConvexHull::Face& face = one.faces[i];
-    // No vertex lies lower than the lowest: most faces are passed by with one that is known.
+    // No vertex lies lower than the lowest: a known vertex rules out most faces.
     const double at_most = face.normal.dot(other.vertices[best.vertex]) - face.offset;
     if (at_most <= level || (i > 0 && at_most <= (at_most > margin ? best.gap : best.gap + tie))) continue;
     const std::uint32_t vertex = other.farthest(-face.normal, best.vertex);
@@ -33,9 +33,9 @@ FaceGap widest_face(const Polyhedron& one, const Polyhedron& other, double tie, 
   return best;
 }
 
-/// Whether what a face comes to with a vertex is all that there is: apart, the vertex lies over the face, and nothing
-/// is nearer; overlapping, no other face is a shorter way out for the vertex, so that no direction is one for the
-/// whole.
+/// Whether the gap between a face and a vertex is the answer, so that no other direction need be tried: if apart, the
+/// vertex lies over the face, and nothing is nearer; if overlapping, no other face is a shorter way out for the
+/// vertex.
 bool is_all(const Polyhedron& one, const Polyhedron& other, const FaceGap& told) {
   const Vec3& normal = one.faces[told.face].normal;
   const Vec3 place = other.vertices[told.vertex] - std::max(0.0, told.gap) * normal;
@@ -45,7 +45,7 @@ bool is_all(const Polyhedron& one, const Polyhedron& other, const FaceGap& told)
   return true;
 }
 
-/// What the face comes to that looks most against a direction.
+/// The gap at the face that faces most against a direction.
 FaceGap gap_of_opposite(const Polyhedron& one, const Polyhedron& other, const Vec3& normal) {
   FaceGap told;
   double least = 2;
@@ -76,7 +76,7 @@ std::span<const std::uint16_t> edges_beyond(const Polyhedron& polyhedron, const 
   return std::span(list).first(count);
 }
 
-/// Edges of which only those pairs count that touch when the polyhedra are moved together: on the sphere of directions,
+/// Tries pairs of edges, but only those that touch when the polyhedra are moved together: on the sphere of directions,
 /// the arc between the normals beside one edge crosses the arc opposite to the other's.
 void try_edges(PolyhedraSeparation& best, const Polyhedron& a, const Polyhedron& b,
                std::span<const std::uint16_t> edges_a, std::span<const std::uint16_t> edges_b, double preference) {
@@ -123,13 +123,13 @@ PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, doub
     best = {PolyhedraSeparation::Kind::face_b, face_b.gap, -b.faces[face_b.face].normal, face_b.face, face_b.vertex};
   if (best.gap > margin) return best;
 
-  // Mostly a corner of one lies over a face of the other, and there no edge tells more.
+  // Usually a corner of one lies over a face of the other, and then no edge gives a wider gap.
   const bool by_a = best.kind == PolyhedraSeparation::Kind::face_a;
   if (by_a ? is_all(a, b, face_a) || is_all(b, a, gap_of_opposite(b, a, best.normal))
            : is_all(b, a, face_b) || is_all(a, b, gap_of_opposite(a, b, -best.normal)))
     return best;
 
-  // Far apart, a face tells well enough by how much; near, only edges that come near each other can do better.
+  // Far apart, the gap at a face is good enough; near, only edges that come near each other can do better.
   if (std::isinf(reach) && best.gap > 0.1 * size) return best;
   const double room = 2 * std::max(0.0, -best.gap) + preference + (std::isinf(reach) ? size : reach);
   const double top_a = by_a ? a.faces[best.first].offset : -b.faces[best.first].offset - best.gap;

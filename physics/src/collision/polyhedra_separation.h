@@ -10,12 +10,12 @@ struct PolyhedraSeparation {
   Kind kind = Kind::face_a;
   double gap = 0;                       ///< m; negative for an overlap
   Vec3 normal{0, 0, 0};                 ///< unit, from a toward b
-  std::uint32_t first = 0, second = 0;  ///< face: which one, and the other's nearest vertex; edges: of a and of b
+  std::uint32_t first = 0, second = 0;  ///< face: its index, and the other's nearest vertex; edges: of a and of b
 };
 
 /// Near ties go to a's faces, then b's, then to pairs of edges, so that the choice does not change from step to step.
-/// Found to be wider apart than `margin`, they get the first such direction.
-/// @param reach  how far apart corners are that the caller will look at, m; >= margin
+/// For polyhedra farther apart than `margin`, the first such direction.
+/// @param reach  how far apart corners may be to matter to the caller, m; >= margin
 /// Source: Gregorius, The Separating Axis Test between Convex Polyhedra, GDC 2013.
 [[nodiscard]] PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, double margin, double reach);
 

@@ -4,7 +4,7 @@ namespace tweenfall::collision {
 
 namespace {
 
-/// From -1 to 1 along each axis; bit i of a vertex's number tells its side along axis i.
+/// From -1 to 1 along each axis; bit i of a vertex's number gives its side along axis i.
 const ConvexHull& cube() {
   static const ConvexHull hull = [] {
     std::array<Vec3, 8> corners;

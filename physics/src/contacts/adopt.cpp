@@ -6,7 +6,7 @@ namespace tweenfall::contacts {
 
 namespace {
 
-/// How a body's surface rolls where something touches it, m.
+/// The radius with which a body's surface rolls where something touches it, m.
 double rolling_radius(const collision::Passage& way, const collision::Prediction& at, const Vec3& position,
                       const Vec3& out) {
   const state::Body& body = *way.body;

@@ -4,7 +4,7 @@
 
 namespace tweenfall::contacts {
 
-/// The rule of a pair: that of the two bodies' rules which comes later in `Combine`.
+/// The rule of a pair: of the two bodies' rules, the one that comes later in `Combine`.
 [[nodiscard]] double combined_friction(double a, Combine rule_a, double b, Combine rule_b);
 [[nodiscard]] double combined_restitution(double a, Combine rule_a, double b, Combine rule_b);
 

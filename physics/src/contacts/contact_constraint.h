@@ -10,22 +10,22 @@ struct PointConstraint {
   std::uint32_t feature = 0;
   Vec3 start_arm_a{0, 0, 0}, start_arm_b{0, 0, 0};  ///< from the centers of mass at the start of the step, world, m
   double start_gap = 0;                             ///< along the normal at the start of the step, m
-  double skin_a = 0, skin_b = 0;  ///< radii with which the surfaces roll here; 0 where they are flat or sharp, m
-  double kept_normal = 0;         ///< of the last sub-step worth keeping: where the next begins, N s
+  double skin_a = 0, skin_b = 0;  ///< radii with which the surfaces roll here; 0 if they are flat or sharp, m
+  double kept_normal = 0;         ///< of the last sub-step worth keeping, where the next one starts, N s
   Vec3 kept_friction{0, 0, 0};
   double total_normal = 0;  ///< of the whole step
   Vec3 total_friction{0, 0, 0};
-  double approach = 0;  ///< closing speed where they meet, m/s
+  double approach = 0;  ///< closing speed where the two meet, m/s
 };
 
 /// Two bodies, or parts of them, that may be in contact.
 struct PairInContact {
   std::uint32_t a = 0, b = 0;                              ///< indices of the bodies, a < b
   std::uint32_t part_a = 0, part_b = 0;                    ///< of compounds
-  std::uint32_t memory = state::ContactMemories::nowhere;  ///< where it is remembered, when it was there before
+  std::uint32_t memory = state::ContactMemories::nowhere;  ///< its memory, if the pair touched before
 };
 
-/// What a pair in contact has but its points.
+/// All about a pair in contact except its points.
 struct ContactHead : PairInContact, state::KeptImpulses {
   int count = 0;
   double friction = 0;
@@ -35,8 +35,8 @@ struct ContactHead : PairInContact, state::KeptImpulses {
   Vec3 rolling_impulse{0, 0, 0};
   Vec3 total_rolling{0, 0, 0};
   double spin_impulse = 0;  ///< of the sub-step, about the normal, N m s
-  bool kept = false;        ///< its manifold was found in a step before
-  bool began = false;       ///< did not touch in the step before
+  bool kept = false;        ///< its manifold was found in an earlier step
+  bool began = false;       ///< the pair did not touch in the step before
   bool impact = false;      ///< some point meets fast enough to rebound
   double impact_time = 0;   ///< s after the start of the step
 };
@@ -44,10 +44,10 @@ struct ContactHead : PairInContact, state::KeptImpulses {
 /// A pair in contact through a step.
 struct ContactConstraint : ContactHead {
   Manifold manifold;
-  std::array<PointConstraint, 4> points{};  ///< so many as `count` says
+  std::array<PointConstraint, 4> points{};  ///< only the first `count` are used
 };
 
-/// It will be looked at soon, and its first points.
+/// Prefetches it with its first points.
 inline void fetch(const ContactConstraint& contact) {
   state::fetch<ContactHead>(&contact);
   state::fetch(&contact.manifold.normal);

@@ -18,20 +18,20 @@ namespace tweenfall {
 namespace contacts {
 namespace {
 
-/// What moves by itself and may meet so many that do is in a crowd; of such bodies, two that both touch so many others
-/// in the crowd get no contact with each other. What is large and bears many small ones is in none: each of those meets
-/// few.
+/// A body that moves by itself and may meet so many that do is in a crowd; two bodies of a crowd that both touch so
+/// many others in it get no contact with each other. A large body that carries many small ones is in none: each of
+/// those meets few.
 constexpr std::uint32_t crowding = 64, most_contacts = 16;
-/// Pairs, or bodies, that are worth a part of their own.
+/// Number of pairs, or bodies, that are worth a task of their own.
 constexpr std::size_t worth_a_part = 64;
 
-/// Of a compound; none of any other body, which is one itself.
+/// The parts of a compound; empty for any other body, which is a single part.
 std::span<const Shape> parts_of(const state::Body& body) {
   const auto* compound = std::get_if<Compound>(&body.shape().solid);
   return compound ? compound->parts() : std::span<const Shape>();
 }
 
-/// Hands the impulses of the step before on: to points of the same features, then to what is left nearby.
+/// Passes on the impulses of the step before: to points of the same features, then to unmatched points nearby.
 /// @param stand_b  where the second body was at the start of that step
 void inherit(ContactConstraint& constraint, const state::ContactMemories& memories, const state::ContactMemory& old,
              const state::Stand& stand_b, double nearby) {
@@ -95,7 +95,7 @@ bool World::Implementation::find_manifold(contacts::ContactConstraint& constrain
     constraint.impact_time = *meeting;
     const collision::Prediction at_a = way_a.course.at(*meeting);
     const collision::Prediction at_b = way_b.course.at(*meeting);
-    // What a spin brings down in what is left of the step, too, and what follows where a corner comes first.
+    // Includes what a spin brings down in the rest of the step, and what follows if a corner comes first.
     const double closing = std::max(0.0, manifold.normal.dot(way_a.course.linear - way_b.course.linear));
     const double rest = contacts::near_enough + (swing + closing) * (dt - *meeting);
     constraint.manifold =
@@ -141,7 +141,7 @@ bool World::Implementation::in_crowd(const pairs::Pair& pair) const {
          !bodies[pair.first].immovable() && !bodies[pair.second].immovable();
 }
 
-/// Fills in `pair_memories`. Of memories of no pair, those that are near nothing that stirs are retained.
+/// Fills in `pair_memories`. Memories without a pair are retained if nothing near them stirs.
 void World::Implementation::find_memories(std::span<const pairs::Pair> pairs) {
   const std::span<const std::uint32_t> sorted = memories.sorted();
   const auto pair_at = [&](std::size_t number) {
@@ -229,7 +229,7 @@ void World::Implementation::find_contacts_of_parts(const contacts::PairInContact
     return parts.empty() ? way : collision::passage_of_part(way, parts[index]);
   };
   const auto box_of = [](const collision::Passage& way) { return bounds(*way.course.shape, way.body->motion.pose); };
-  // No part comes farther in the step than this.
+  // No part moves farther in the step than this.
   const Vec3 closing = way_a.course.linear - way_b.course.linear;
   const Vec3 pull = way_a.course.acceleration - way_b.course.acceleration;
   const double room = contacts::near_enough + (closing.norm() + pull.norm() * dt + way_a.swing + way_b.swing) * dt;
@@ -264,7 +264,7 @@ void World::Implementation::find_contacts_of_parts(const contacts::PairInContact
   }
 }
 
-/// What the pairs after the i-th will look at.
+/// Prefetches what the pairs after the i-th will read.
 void World::Implementation::fetch_ahead(std::span<const pairs::Pair> pairs,
                                         std::span<const contacts::PairMemories> memories_of, std::size_t i) const {
   constexpr std::size_t far = 8, near = 4;
@@ -356,7 +356,7 @@ void World::Implementation::find_constraints(double dt) {
   const auto find = [&](std::size_t part, std::size_t begin, std::size_t end) {
     find_part(all.subspan(begin, end - begin), known.subspan(begin, end - begin), crowded, dt, found[part]);
   };
-  // In a crowd what a pair may have depends on the pairs before it.
+  // In a crowd, the contacts of a pair depend on the pairs before it.
   const std::size_t parts =
       crowded ? 1 : std::max<std::size_t>(1, work.range_count(pairs.size(), contacts::worth_a_part));
   found.resize(std::max(parts, found.size()));

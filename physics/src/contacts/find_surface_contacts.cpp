@@ -19,8 +19,8 @@ namespace {
 using collision::Passage;
 using surfaces::Surface;
 
-/// How far a body may come in a step for its contacts with a surface to be taken up again, m. What is wider apart than
-/// `near_enough` when they are found then cannot have come to touch.
+/// How far a body may move in a step and use its contacts with a surface again, m. Anything farther away than
+/// `near_enough` when they were found cannot touch then.
 constexpr double calm = 0.25 * near_enough;
 
 /// Contacts of one solid with one surface, as they are found.
@@ -44,14 +44,14 @@ class SurfaceContacts {
         swing_(way.swing +
                way_surface.spin * ((way.body->center - way_surface.body->center).norm() + way.body->radius())) {}
 
-  /// No place of the solid comes farther against the surface in the step, m.
+  /// Upper bound of how far a point of the solid moves relative to the surface in the step, m.
   [[nodiscard]] double way() const {
     const Vec3 velocity = way_.course.linear - way_surface_.course.linear;
     const Vec3 acceleration = way_.course.acceleration - way_surface_.course.acceleration;
     return (velocity.norm() + acceleration.norm() * dt_ + swing_) * dt_;
   }
 
-  /// Takes all remembered contacts up again, or none.
+  /// Uses all remembered contacts again, or none.
   bool take_up_all(const state::ContactMemories& memories, std::span<const std::uint32_t> places) {
     if (places.empty() || places.size() > most || way() > calm) return false;
     count_ = 0;
@@ -83,7 +83,7 @@ class SurfaceContacts {
     for (std::size_t i = 0; i < first.count; ++i) {
       const double time = first.meetings[i].time;
       const shapes::Placed surface = placed(way_surface_, time);
-      // What a spin brings down in what is left of the step, too.
+      // Includes what a spin brings down in the rest of the step.
       const double rest = near_enough + swing_ * (dt_ - time);
       const surfaces::Touch then = touched(surface, placed(way_, time), rest, rest);
       for (std::size_t k = 0; k < then.count; ++k) found(then.manifolds[k], surface, time);
@@ -99,8 +99,8 @@ class SurfaceContacts {
     return surface_is_a_ ? part_a : part_b;
   }
 
-  /// Numbers the contacts: each takes the number, and the memory, of the remembered one that was nearest to where it is
-  /// on the solid; the others take the numbers that are left.
+  /// Numbers the contacts: each takes the number, and the memory, of the remembered contact that was nearest to it
+  /// on the solid; the others take the remaining numbers.
   void number(const state::ContactMemories& memories, std::span<const std::uint32_t> places) {
     std::array<bool, most> numbered{};
     std::array<bool, 2 * most> taken{};
@@ -154,11 +154,11 @@ class SurfaceContacts {
   }
   [[nodiscard]] static double height_of(const Manifold& manifold) {
     const ContactPoint& point = manifold.points[0];
-    // Of the surface: the point is midway.
+    // Of the surface itself, since the point is midway.
     return manifold.normal.dot(point.position) + 0.5 * point.penetration;
   }
 
-  /// A contact in the surface's space, unless it is known already.
+  /// Adds a contact given in the surface's space, unless it is known already.
   void found(const Manifold& manifold, const shapes::Placed& at_surface, double time) {
     if (manifold.count == 0 || count_ == most || !manifold.normal.allFinite()) return;
     const double height = height_of(manifold);

@@ -7,8 +7,8 @@
 #include "contacts/meeting.h"
 #include "state/world_data.h"
 
-/// Bodies that fly one behind the other do not meet as they go. Where the first is stopped, the next runs into it
-/// within the same step: without a contact it would be far inside when the step is over.
+/// Bodies that fly one behind the other do not meet on their present paths. But if the first is stopped, the next runs
+/// into it within the same step: without a contact it would be far inside at the end of the step.
 
 namespace tweenfall {
 
@@ -16,13 +16,13 @@ namespace contacts {
 
 namespace {
 
-/// A blow is handed on through so many bodies at most: in a step it comes no farther.
+/// A blow is passed on through at most this many bodies: it gets no farther in a step.
 constexpr int most_rounds = 8;
 
-/// Contacts that are worth a part of their own.
+/// Number of contacts that are worth a task of their own.
 constexpr std::size_t links_worth_a_part = 128;
 
-/// What changes the way of a body in a step by less than this part of what counts as near is no blow.
+/// A blow that displaces a body in a step by less than this part of `near_enough` is none.
 constexpr double hardly_moved = 0.25;
 
 /// Which bodies the blows of a step reach, when, and how hard at most.
@@ -31,11 +31,11 @@ class Blows {
   Blows(std::vector<Struck>& struck, std::size_t bodies, double dt) : struck_(struck), dt_(dt) {
     struck_.assign(bodies, {dt, 0, 0});
   }
-  /// Whether anything was struck since it was last asked.
+  /// Whether anything was struck since the last call.
   [[nodiscard]] bool spread() { return std::exchange(spread_, false); }
 
-  /// What is hardly more than was known is left out, so that it soon comes to an end: for each body by itself, for what
-  /// others do somewhere else must not matter to it.
+  /// Ignores what is hardly more than was known, so that this soon ends: for each body by itself, since what
+  /// happens to others elsewhere must not affect it.
   void strike(std::uint32_t body, double time, double change) {
     Struck& struck = struck_[body];
     if (!(change * (dt_ - time) > hardly_moved * near_enough)) return;
@@ -45,15 +45,15 @@ class Blows {
     struck.when = now_;
     spread_ = true;
   }
-  /// Whether a blow reaches one of two.
+  /// Whether a blow reaches one of the two.
   [[nodiscard]] bool reach(const Link& link) const { return struck_[link.a].time < dt_ || struck_[link.b].time < dt_; }
-  /// Whether a blow can bring two together that are no nearer than `gap`.
+  /// Whether a blow can bring two together that are at least `gap` apart.
   [[nodiscard]] bool may_bring(const Link& link, double closing) const {
     const Struck &a = struck_[link.a], &b = struck_[link.b];
     return surely * link.gap < (closing + a.most + b.most) * (dt_ - std::min(a.time, b.time));
   }
-  /// What a blow makes of a pair. @return how far the two may come towards each other in what is left of the step, m; 0
-  /// where they do not meet
+  /// Passes a blow on through a pair. @return how far the two may approach in the rest of the step, m; 0
+  /// if they do not meet
   double hand_on(const Link& link) {
     const Struck &a = struck_[link.a], &b = struck_[link.b];
     const double begin = std::min(a.time, b.time), closing = link.closing + a.most + b.most;
@@ -65,8 +65,8 @@ class Blows {
     return closing * (dt_ - begin);
   }
 
-  /// The same for one of many links that are gone through in their order, round by round. Where neither end was struck
-  /// since the link was last looked at, it hands on what it did.
+  /// The same for one of many links that are visited in their order, round by round. A link neither of whose ends was
+  /// struck since the last visit has already passed on what it could.
   void hand_on_again(const Link& link, int round, std::size_t number) {
     const std::uint64_t last = now_of(round, number);
     now_ = now_of(round + 1, number);
@@ -74,7 +74,7 @@ class Blows {
   }
 
  private:
-  /// Of the first round nothing was before.
+  /// Nothing comes before the first round.
   static std::uint64_t now_of(int round, std::size_t number) {
     return round == 0 ? 0 : (static_cast<std::uint64_t>(round) << 32) + number;
   }
@@ -138,10 +138,10 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
       cornered[k] = contact.count < 4 && contact.impact_time == 0 && has_corners(contact);
     }
   });
-  // As the bodies lie at the start of the step.
+  // For the positions of the bodies at the start of the step.
   const auto meet_at_start = [this](contacts::ContactConstraint& contact, const Manifold& manifold) {
     contact.manifold = manifold;
-    contact.kept = false;  // the memory has to find this one, of more points
+    contact.kept = false;  // the memory has to find this one, which has more points
     const state::Body &a = bodies[contact.a], &b = bodies[contact.b];
     contacts::adopt(contact, passages[contact.a], {a.center, a.motion.pose.rotation}, passages[contact.b],
                     {b.center, b.motion.pose.rotation});
@@ -155,7 +155,7 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
     if (!pair.known) {
       const double fastest = (way_a.course.linear - way_b.course.linear).norm();
       if (contacts::tell_all(way_a, way_b) && !blows.may_bring(pair.link, fastest)) return false;
-      // By a direction of steps before; what comes of this one must not depend on them.
+      // It came from a direction of earlier steps, but the result of this step must not depend on those.
       const Manifold apart = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
                                                 contacts::near_enough, contacts::near_enough);
       const double gap = collision::gap_along(way_a, way_b, apart.normal);
@@ -179,7 +179,7 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
     for (std::size_t i = 0; i < touching_links.size(); ++i) blows.hand_on_again(touching_links[i], round, i);
     for (contacts::FoundPart& part : all) std::erase_if(part.followers, take);
   }
-  // What lies on few corners may be tilted by a blow until the others come down. Those that are near are known.
+  // A body on few corners may be tilted by a blow until others come down. Corners that are near are known.
   for (std::size_t i = 0; i < active.size(); ++i) {
     const contacts::Link& link = touching_links[i];
     if (cornered[i] == 0 || !blows.reach(link)) continue;

@@ -8,14 +8,14 @@
 
 namespace tweenfall::contacts {
 
-/// Whether two bodies may meet in this step though they stay apart as they go now. Of what hardly moves that is not
-/// looked into: in most heaps that is all.
+/// Whether two bodies may meet in this step although they stay apart on their present paths. Bodies that hardly move
+/// are not examined: in most heaps that is all of them.
 [[nodiscard]] inline bool may_follow(const collision::Passage& a, const collision::Passage& b, double dt) {
   const double square = std::max(a.course.linear.squaredNorm(), b.course.linear.squaredNorm()) * dt * dt;
   return 16 * square > near_enough * near_enough;
 }
 
-/// And with such a gap, where one of them is stopped, or pushed by a third.
+/// The same for this gap, if one of the two is stopped, or pushed by a third body.
 [[nodiscard]] inline bool follow(const collision::Passage& a, const collision::Passage& b, double gap, double dt) {
   constexpr double faster = 4, close = 0.1;  // of the speed; parts of the smaller one's radius
   const double square = std::max(a.course.linear.squaredNorm(), b.course.linear.squaredNorm()) * dt * dt;
@@ -23,9 +23,9 @@ namespace tweenfall::contacts {
          (gap * gap < faster * faster * square && gap < close * std::min(a.body->radius(), b.body->radius()));
 }
 
-/// Whether `collide` tells how far apart two bodies are, so that no direction that is known of such a pair tells of a
-/// wider gap: of a ball, or of two capsules, their distance; of two polyhedra the widest gap above a face. Of other
-/// solids it takes the first direction that parts them.
+/// Whether `collide` finds the exact distance of two bodies, so that no known direction gives a
+/// wider gap: with a ball, or for two capsules, their distance; for two polyhedra the widest gap above a face. For
+/// other solids it takes the first direction that separates them.
 [[nodiscard]] inline bool tell_all(const collision::Passage& a, const collision::Passage& b) {
   enum class Kind { ball, capsule, polyhedron, other };
   const auto kind_of = [](const collision::Passage& way) {
@@ -38,7 +38,7 @@ namespace tweenfall::contacts {
   if (kind_a == Kind::other || kind_b == Kind::other) return false;
   return kind_a == kind_b || kind_a == Kind::ball || kind_b == Kind::ball;
 }
-/// But for what it leaves to rounding: of a gap that some direction told of, the part that it tells of too.
+/// Except for rounding: `collide` finds at least this part of a gap along any direction.
 constexpr double surely = 0.999;
 
 /// Whether two bodies are so fast that they may meet with a blow.
@@ -60,7 +60,7 @@ constexpr double surely = 0.999;
           normal.dot(way_a.course.linear - way_b.course.linear)};
 }
 
-/// Adds the blow with which two bodies meet at this contact within the step, if there is one.
+/// Adds the blow with which two bodies meet at this contact within the step, if any.
 void note_blow(const ContactConstraint& contact, const collision::Passage& a, const collision::Passage& b, double dt,
                std::vector<Blow>& blows);
 

@@ -9,48 +9,48 @@
 
 namespace tweenfall::contacts {
 
-/// A pair that was told apart in the step before.
+/// A pair that was found apart in the step before.
 struct KnownApart {
   pairs::Pair pair;
   collision::Apart apart;
 };
 
-/// How two bodies may hand a blow on.
+/// A pair through which a blow may be passed on.
 struct Link {
   std::uint32_t a = 0, b = 0;
-  bool a_moves = false, b_moves = false;  ///< or stands like a wall
+  bool a_moves = false, b_moves = false;  ///< an end that does not move stands like a wall
   double gap = 0, closing = 0;            ///< m, m/s
 };
 
-/// A pair that stays apart as its bodies go now, but might not if one of them were stopped.
+/// A pair that stays apart on the present paths, but might not if one of its bodies were stopped.
 struct Followers {
   Link link;
   std::uint32_t memory = state::ContactMemories::nowhere;
-  bool known = true;  ///< how wide the gap is; otherwise only that it is no less
+  bool known = true;  ///< the width of the gap is known; otherwise only a lower bound
 };
 
-/// Of two bodies that meet within this step.
+/// Two bodies that meet within this step.
 struct Blow {
   std::uint32_t a = 0, b = 0;
-  double time = 0, change = 0;  ///< s after the start of the step; of their velocities at most, m/s
+  double time = 0, change = 0;  ///< s after the start of the step; upper bound for their velocities, m/s
 };
 
-/// What the blows of this step may do to a body.
+/// The possible effect of this step's blows on a body.
 struct Struck {
-  double time = 0;         ///< by the first, s
-  double most = 0;         ///< change of its velocity, m/s
-  std::uint64_t when = 0;  ///< it was last told of a harder or an earlier one: a number that rises
+  double time = 0;         ///< of the first blow, s
+  double most = 0;         ///< greatest change of its velocity, m/s
+  std::uint64_t when = 0;  ///< rising number of the last time it got a harder or an earlier blow
 };
 
-/// The memories of a pair of bodies: one, or one for each pair of parts that touched; places in the sorted list.
+/// The memories of a pair of bodies: one, or one per pair of parts that touched; places in the sorted list.
 struct PairMemories {
   std::uint32_t first = 0, count = 0;
 };
 
-/// Contacts one after the other, in places that are used again and not cleared: most have few points.
+/// A list of contacts whose places are reused without being cleared, since most have few points.
 class FoundContacts {
  public:
-  /// One without points.
+  /// Adds one without points.
   ContactConstraint& add() {
     if (count_ == all_.size()) all_.emplace_back();
     ContactConstraint& contact = all_[count_++];
@@ -67,7 +67,7 @@ class FoundContacts {
   std::size_t count_ = 0;
 };
 
-/// What a part of the pairs comes to, in their order.
+/// The results for a part of the pairs, in their order.
 struct FoundPart {
   FoundContacts contacts;
   std::vector<KnownApart> aparts;

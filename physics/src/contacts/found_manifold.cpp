@@ -13,12 +13,12 @@ using state::Stand;
 
 namespace {
 
-/// Parts of the smaller body's radius by which the bodies may have moved against each other.
+/// How far the bodies may have moved relative to each other, in parts of the smaller body's radius.
 constexpr double hardly = 2e-3;
-/// And at most this, m: points that come near are found before they touch.
+/// But at most this far, m, so that approaching points are found before they touch.
 constexpr double unnoticed = 1e-3;
 
-/// A manifold that was found, in the bodies' own axes.
+/// A manifold that was found earlier, in the bodies' own axes.
 class FoundManifold {
  public:
   FoundManifold(const ContactMemories& memories, const ContactMemory& memory)
@@ -29,7 +29,7 @@ class FoundManifold {
   /// From a's center of mass to b's, in a's axes, m.
   [[nodiscard]] Vec3 between() const { return back_a_ * Vec3(then_.b.center - then_.a.center); }
 
-  /// The same where the bodies stand. Calls see(i, arm from a, arm from b, gap) for its points.
+  /// The same for the present positions of the bodies. Calls see(i, arm from a, arm from b, gap) for its points.
   template <class See>
   Manifold laid(const Stand& a, const Stand& b, const See& see) const {
     const Mat3 axes_a = a.rotation.toRotationMatrix(), axes_b = b.rotation.toRotationMatrix();

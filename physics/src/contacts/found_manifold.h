@@ -5,12 +5,12 @@
 
 namespace tweenfall::contacts {
 
-/// Whether a manifold is worth keeping: between flat faces it costs most, and there its points would wander.
+/// Whether a manifold is worth keeping: between flat faces it costs most, and its points would wander there.
 [[nodiscard]] bool keeps_manifold(const ContactConstraint& contact);
 
-/// Takes the remembered manifold up again, told about where the bodies are now.
-/// @param swing  how fast points of the surfaces move because the bodies spin, m/s
-/// @return false when they have moved against each other by too much since it was found
+/// Uses the remembered manifold again, moved to where the bodies are now.
+/// @param swing  speed of surface points due to the spin of the bodies, m/s
+/// @return false when they have moved too much relative to each other since it was found
 [[nodiscard]] bool take_up(const state::ContactMemories& memories, const state::ContactMemory& memory,
                            const state::Body& a, const state::Body& b, double swing, double dt,
                            ContactConstraint& contact);

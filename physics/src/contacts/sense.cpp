@@ -38,7 +38,7 @@ void World::Implementation::sense() {
     for (const std::uint32_t other : here.overlapping(sensor.shape(), sensor.motion.pose, counts))
       next_overlaps.push_back({{index, sensor.generation}, {other, bodies[other].generation}, false});
   }
-  // Both by index; a body that came in the place of another is another.
+  // Both are sorted by index; a body that has taken the place of another counts as another.
   auto before = overlaps.cbegin();
   for (SensorOverlap& overlap : next_overlaps) {
     for (; before != overlaps.cend() && contacts::sensed_before(*before, overlap); ++before)

@@ -12,7 +12,7 @@ namespace tweenfall::convex {
 struct ClipCorner {
   Vec3 position;
   std::uint32_t feature;
-  std::uint32_t edge;  ///< of the polygon, from this corner on: a side of the face that is cut, or a cutting plane
+  std::uint32_t edge;  ///< the polygon's edge after this corner: a side of the face that is cut, or a cutting plane
   double radius;       ///< of a ball around it, m
 };
 
@@ -25,7 +25,7 @@ struct ClipPolygon {
   }
 };
 
-/// What lies behind the plane, into `result`. New corners are named by the plane and the edge it cut.
+/// Writes the part behind the plane to `result`. New corners are named by the plane and the edge it cut.
 void cut_face(const ClipPolygon& polygon, const Vec3& normal, double offset, std::uint32_t plane, double tolerance,
               ClipPolygon& result);
 

@@ -15,7 +15,7 @@ using collision::add_point;
 
 namespace {
 
-/// Parts of a size by which a face may be worse than the best direction, so that rounding does not decide.
+/// By how much a face may be worse than the best direction, in parts of a size, so that rounding does not decide.
 constexpr double face_preference = 1e-7;
 /// Sine of the angle within which two lines lie along each other.
 constexpr double lying_along = 0.05;
@@ -41,9 +41,9 @@ FaceChoice face_along(Core& a, Core& b, const Meeting& meeting) {
   return best;
 }
 
-/// A few of the corners that are near a plane, as contact points.
-/// @param out  the plane's normal, toward what has the corners
-/// @param shown  another direction across the plane, fixed to a solid
+/// Adds a few of the corners that are near a plane, as contact points.
+/// @param out  the plane's normal, toward the solid with the corners
+/// @param shown  another direction in the plane, fixed to a solid
 void add_corners(Manifold& manifold, const ClipPolygon& corners, const Vec3& out, double offset, const Vec3& shown,
                  std::uint32_t tag, double reach) {
   std::array<pairs::ContactCandidate, 2 * ConvexHull::most_vertices> candidates;
@@ -60,7 +60,7 @@ void add_corners(Manifold& manifold, const ClipPolygon& corners, const Vec3& out
               candidates[i].feature | tag << 28, reach);
 }
 
-/// The lowest place, which the sides of a face that is told by corners of its rim may have cut off.
+/// Adds the lowest point, which the sides of a face given by corners of its rim may have cut off.
 void add_lowest(ClipPolygon& corners, Core& incident, const Vec3& out, double offset, double size) {
   const Vec3 lowest = incident.support(-out);
   const double gap = out.dot(lowest) - incident.radius - offset;
@@ -71,7 +71,7 @@ void add_lowest(ClipPolygon& corners, Core& incident, const Vec3& out, double of
   corners.add(lowest, 0x3000000u, 0, incident.radius);
 }
 
-/// What is foremost of one solid, cut by the sides of the other's face.
+/// The foremost part of one solid, cut by the sides of the other's face.
 void clip_onto_face(Manifold& manifold, Core& reference, const FlatFace& face, Core& incident, std::uint32_t tag,
                     double reach) {
   ClipPolygon sides, polygon, spare;

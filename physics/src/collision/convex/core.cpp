@@ -38,7 +38,7 @@ std::uint32_t climbed(const ConvexHull& hull, const Vec3& direction, std::uint32
   }
 }
 
-/// A triangle or, where it reaches behind itself, a prism. Its normal is its second axis.
+/// A triangle or, if it reaches behind itself, a prism. Its normal is its second axis.
 Vec3 farthest_of_triangle(const Core& core, const Vec3& direction) {
   const std::array<Vec3, 3>& corners = *core.corners;
   std::size_t best = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Convex solids as a general search sees them: by the farthest place along a direction.
+/// Convex solids for a general search: by the farthest point along a direction.
 
 #include <tweenfall/physics/shape.h>
 
@@ -10,26 +10,26 @@
 
 namespace tweenfall::convex {
 
-/// A convex solid in some space: all that is nearer than a radius to its core.
+/// A convex solid in some space: everything within a radius of its core.
 struct Core {
   enum class Kind : std::uint8_t { point, segment, box, hull, cylinder, cone, drop, triangle };
   Kind kind = Kind::point;
-  /// Of a box, half extents; of what is turned about y, its radius and half its height. A drop is a ball of that radius
-  /// and the point across from it: the ball above where y is positive.
+  /// Of a box, half extents; of a solid of revolution about y, its radius and half its height. A drop is a ball of that
+  /// radius and the point opposite to it: the ball is above if y is positive.
   Vec3 half{0, 0, 0};
   const ConvexHull* hull = nullptr;
   const std::array<Vec3, 3>* corners = nullptr;  ///< of a triangle, counter-clockwise seen from the front
   double back = 0;                               ///< how far a triangle reaches behind itself, m
   double radius = 0;                             ///< around the core, m
-  double size = 0;                               ///< about from its middle to the nearest place of its surface, m
-  double reach = 0;                              ///< no place of the core is farther from its origin, m
+  double size = 0;   ///< about the distance from its middle to the nearest point of its surface, m
+  double reach = 0;  ///< no point of the core is farther from its origin, m
   Mat3 turn = Mat3::Identity();
   Vec3 shift{0, 0, 0};
   std::uint32_t vertex = 0;  ///< of the hull, where the last search ended
 
-  /// The farthest place of the core along a direction of any length.
+  /// The farthest point of the core along a direction of any length.
   [[nodiscard]] Vec3 support(const Vec3& direction);
-  /// The farthest place of the solid along a unit direction is at this height, m.
+  /// The height of the solid's farthest point along a unit direction, m.
   [[nodiscard]] double height(const Vec3& direction) { return direction.dot(support(direction)) + radius; }
   [[nodiscard]] Vec3 place(const Vec3& local) const { return shift + turn * local; }
 };

@@ -61,7 +61,7 @@ class Difference {
     return static_cast<std::uint32_t>(count_++);
   }
 
-  /// `no_facet` where three points are as good as on a line.
+  /// `no_facet` if the three points are almost on a line.
   std::uint32_t add_facet(std::uint32_t i, std::uint32_t k, std::uint32_t l) {
     const Vec3 &a = points_[i].apart, &b = points_[k].apart, &c = points_[l].apart;
     Vec3 normal = (b - a).cross(c - a);
@@ -70,7 +70,7 @@ class Difference {
     normal /= length;
     DifferenceFacet& facet = facets_[facet_count_];
     facet = {{i, k, l}, {no_facet, no_facet, no_facet}, normal, 0, true};
-    // The corner farthest back bounds it best.
+    // The corner farthest back gives the best bound.
     facet.height = std::max(normal.dot(a), std::max(normal.dot(b), normal.dot(c)));
     return static_cast<std::uint32_t>(facet_count_++);
   }
@@ -80,7 +80,7 @@ class Difference {
     return std::abs(direction.dot(ahead.apart - from)) >= std::abs(direction.dot(behind.apart - from)) ? ahead : behind;
   }
 
-  /// A tetrahedron of places far apart; false when there is none.
+  /// Makes a tetrahedron of points far apart; false if there is none.
   bool begin() {
     int widest = 0;
     std::array<DifferencePoint, 2> ends = {farthest(-Vec3::Unit(0)), farthest(Vec3::Unit(0))};
@@ -121,7 +121,7 @@ class Difference {
     return true;
   }
 
-  /// Without a volume the way out leads across.
+  /// Without a volume, the way out is perpendicular.
   Depth flat() {
     if (!normal_.allFinite() || !(normal_.norm() > 0.5)) return {};
     if (normal_.dot(b_.shift - a_.shift) < 0) normal_ = -normal_;
@@ -140,7 +140,7 @@ class Difference {
     return best;
   }
 
-  /// The depth along a facet's normal, and the places that its corners are of, where the origin is below it.
+  /// Notes the depth along a facet's normal, and the points behind its corners, if the origin is below the facet.
   void note(const DifferenceFacet& facet, double height) {
     best_.depth = height;
     best_.normal = facet.normal;
@@ -158,7 +158,8 @@ class Difference {
     best_.on_b = of_a * a.on_b + of_b * b.on_b + of_c * c.on_b;
   }
 
-  /// Facets that the point sees, connected with the first, and their border; false when that is not one simple loop.
+  /// Finds the facets that the point sees, connected with the first, and their border; false unless that is one simple
+  /// loop.
   bool look(const Vec3& point, std::uint32_t first, double threshold) {
     seen_count_ = hole_count_ = 0;
     ++mark_;
@@ -202,7 +203,7 @@ class Difference {
   }
 
   bool grow(const DifferencePoint& point, std::uint32_t first) {
-    // What lies in one plane with the point is seen too, unless rounding tears the border.
+    // Facets in one plane with the point are seen too, unless rounding tears the border.
     if (!look(point.apart, first, -flat_) && !look(point.apart, first, 0) && !look(point.apart, first, flat_))
       return false;
     pack();
@@ -222,7 +223,7 @@ class Difference {
     return true;
   }
 
-  /// Fills the places of facets that are seen with later ones.
+  /// Fills the places of removed facets with later ones.
   void pack() {
     for (std::size_t i = 0; i < seen_count_; ++i) facets_[seen_[i]].alive = false;
     std::array<std::uint32_t, most_facets> moved;

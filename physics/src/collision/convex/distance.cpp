@@ -11,17 +11,17 @@ namespace {
 
 constexpr int most_searches = 128;
 
-/// A place of a less one of b.
+/// A point of a minus one of b.
 struct SimplexPoint {
   Vec3 apart, on_a, on_b;
 };
 
-/// The smallest simplex found so far that has the place nearest to the origin.
+/// The smallest simplex found so far that contains the point nearest to the origin.
 class NearestSimplex {
  public:
-  /// The place nearest to the origin.
+  /// The point nearest to the origin.
   const Vec3& find_nearest() {
-    // The newest point is one of them: without it the place would be where it was.
+    // The newest corner is part of it: without it, the nearest point would be the same as before.
     const int newest = count_ - 1;
     best_ = {};
     try_point(newest);
@@ -30,10 +30,10 @@ class NearestSimplex {
       for (int k = i + 1; k < newest; ++k) try_triangle(i, k, newest);
     return best_.place;
   }
-  /// Lets the points go that it does not lie between.
+  /// Drops the corners that the nearest point does not lie between.
   void reduce() { keep(best_); }
 
-  /// Of a tetrahedron.
+  /// For a tetrahedron.
   [[nodiscard]] bool holds_origin() const {
     if (count_ < 4) return false;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -100,7 +100,7 @@ class NearestSimplex {
 
   void keep(const Candidate& best) {
     count_ = best.count;
-    // Corners are told in order, so that none is written over before it is read.
+    // Corners are listed in order, so that none is overwritten before it is read.
     for (std::size_t k = 0; k < static_cast<std::size_t>(count_); ++k) {
       const auto from = static_cast<std::size_t>(best.corners[k]);
       if (from != k) points_[k] = points_[from];
@@ -114,16 +114,16 @@ class NearestSimplex {
   Candidate best_;
 };
 
-/// Where what of a solid is nearest to a box lies over a face of it, there is no nearer way; and what is farther than
-/// `enough` from one is so far apart.
-/// @return the normal out of the box; nothing where no face tells
+/// If the point of a solid nearest to a box lies over a face of it, there is no shorter distance; and if it is farther
+/// than `enough` from the plane of a face, that is enough.
+/// @return the normal out of the box; empty if no face decides
 std::optional<Nearness> over_a_face(const Core& box, Core& other, double enough, double touching) {
   const Vec3 between = box.turn.transpose() * (other.shift - box.shift);
   double most = touching;
   int axis = -1;
   Vec3 nearest;
   for (int i = 0; i < 3; ++i) {
-    // Its middle is no nearer to the face than what of it is nearest.
+    // Its center is no nearer to the face than its nearest point.
     if (!(std::abs(between[i]) - box.half[i] > most)) continue;
     const double side = between[i] < 0 ? -1 : 1;
     const Vec3 place = other.support(box.turn.col(i) * -side);
@@ -180,7 +180,7 @@ Nearness nearness_of(Core& a, Core& b, double enough) {
     }
     if (i > 0 && (length - lowest <= 1e-13 * length + rounding || simplex.has(point.apart))) break;
     simplex.add(point);
-    // What lies all beyond a plane holds it not, however flat the tetrahedron and the rounding of its sides.
+    // If all lies beyond a plane, the origin is not inside, however flat the tetrahedron and the rounding of its sides.
     if (!(lowest > rounding) && simplex.holds_origin()) return {};
     const Vec3& next = simplex.find_nearest();
     if (!(next.squaredNorm() < square)) {

@@ -10,7 +10,7 @@ namespace tweenfall::convex {
 namespace {
 
 constexpr std::size_t rim_corners = 16;
-/// Cosines of the angles of a sixteenth, two, three and four of a turn.
+/// Cosines of zero to four sixteenths of a turn.
 constexpr std::array<double, 5> rim_cosines = {1, 0.92387953251128674, 0.70710678118654752, 0.38268343236508977, 0};
 
 double rim_cosine(std::size_t sixteenths) {
@@ -21,14 +21,14 @@ double rim_cosine(std::size_t sixteenths) {
   return rim_cosines[16 - i];
 }
 
-/// Where the surface of what is turned about y comes first, seen along the axis.
+/// Where the surface of a solid of revolution about y is foremost, seen along the axis.
 Vec3 outward(const Vec3& local) {
   const double across = std::sqrt(local.x() * local.x() + local.z() * local.z());
   return across > 0 ? Vec3(local.x() / across, 0, local.z() / across) : Vec3(1, 0, 0);
 }
 
 void add_rim(const Core& core, double height, bool up, const Vec3& local, ClipPolygon& corners) {
-  /// Sine of the angle from which one place of the rim is the lowest.
+  /// Sine of the angle from which one point of the rim is the lowest.
   constexpr double leaning = 1e-5;
   const bool leans = local.x() * local.x() + local.z() * local.z() > leaning * leaning;
   const Vec3 first = leans ? outward(local) : Vec3(1, 0, 0);
@@ -66,7 +66,7 @@ void add_triangle(const Core& core, ClipPolygon& corners) {
   for (std::uint32_t i = 0; i < 3; ++i) corners.add((*core.corners)[i], i, i);
 }
 
-/// The face around the farthest vertex that looks most along a direction.
+/// The face at the farthest vertex that faces most along a direction.
 std::uint32_t hull_face_along(const ConvexHull& hull, std::uint32_t vertex, const Vec3& local) {
   std::uint32_t best = 0;
   double most = -2;
@@ -90,7 +90,7 @@ Generator generator_of(const Core& cone, const Vec3& local) {
   return {cone.half.x() * outward(local) - Vec3(0, cone.half.y(), 0), Vec3(0, cone.half.y(), 0)};
 }
 
-/// Whether a cone's base comes first, and not its side.
+/// Whether a cone's base is foremost rather than its side.
 bool base_first(const Core& cone, const Vec3& local) {
   const double across = std::sqrt(local.x() * local.x() + local.z() * local.z());
   const double slant = Vec2(2 * cone.half.y(), cone.half.x()).norm();
@@ -164,7 +164,7 @@ void foremost(Core& core, const Vec3& direction, ClipPolygon& corners) {
 }
 
 SurfaceLine foremost_line(Core& core, const Vec3& direction) {
-  /// Sine of the angle within which a line lies across.
+  /// Sine of the angle within which a line counts as perpendicular.
   constexpr double leaning = 0.05;
   const Vec3 local = core.turn.transpose() * direction;
   const Vec3 end(0, core.half.y(), 0);

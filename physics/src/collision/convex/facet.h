@@ -1,6 +1,6 @@
 #pragma once
 
-/// What of a convex solid touches: faces, edges and rims.
+/// The touching parts of a convex solid: faces, edges and rims.
 
 #include "collision/convex/clip.h"
 #include "collision/convex/core.h"
@@ -14,7 +14,7 @@ struct FlatFace {
   Vec3 normal{0, 0, 0};  ///< unit, outwards
 };
 
-/// Calls with every flat face that looks along a unit direction, but for a moderate angle.
+/// Calls `visit` with every flat face whose normal points roughly along a unit direction.
 template <class Visit>
 void visit_faces(const Core& core, const Vec3& direction, const Visit& visit) {
   constexpr double roughly = 0.9;  // cosine of the angle
@@ -40,14 +40,14 @@ void visit_faces(const Core& core, const Vec3& direction, const Visit& visit) {
   }
 }
 
-/// Corners of a flat face, counter-clockwise as seen from outside. A round one is told as sixteen corners of its rim,
+/// Corners of a flat face, counter-clockwise as seen from outside. A round face is given as sixteen corners of its rim,
 /// one of them the lowest along `direction`.
 void corners_of(const Core& core, const FlatFace& face, const Vec3& direction, ClipPolygon& corners);
 
-/// The part of the surface that comes first along a direction: a face, an edge, or a corner, however much it leans.
+/// The part of the surface that is foremost along a direction: a face, an edge, or a corner, however much it leans.
 void foremost(Core& core, const Vec3& direction, ClipPolygon& corners);
 
-/// An edge of the surface that lies across a direction, but for a small angle, and is farthest along it.
+/// An edge of the surface that is nearly perpendicular to a direction, and is farthest along it.
 struct SurfaceLine {
   bool there = false;
   Vec3 from{0, 0, 0}, to{0, 0, 0};

@@ -7,7 +7,7 @@ namespace tweenfall::convex {
 
 namespace {
 
-/// The mix of some corners that is nearest to zero.
+/// The combination of some corners that is nearest to zero.
 struct Nearest {
   Vec3 point{0, 0, 0};
   double square = std::numeric_limits<double>::infinity();
@@ -34,7 +34,7 @@ Nearest on_edge(const Corners& corners, std::size_t a, std::size_t b) {
   const double square = along.squaredNorm();
   const double share = square > 0 ? std::clamp(-from.dot(along) / square, 0.0, 1.0) : 0;
   Nearest nearest;
-  // Told from the nearer end, so that little is lost.
+  // Computed from the nearer end, so that little precision is lost.
   nearest.point = share <= 0.5 ? Vec3(from + share * along) : Vec3(to - (1 - share) * along);
   nearest.square = nearest.point.squaredNorm();
   nearest.weights[a] = 1 - share;
@@ -42,7 +42,7 @@ Nearest on_edge(const Corners& corners, std::size_t a, std::size_t b) {
   return nearest;
 }
 
-/// Its border, and its inside where zero lies above that.
+/// Its border, and its inside if zero lies above that.
 Nearest on_triangle(const Corners& corners, std::size_t a, std::size_t b, std::size_t c) {
   Nearest nearest = on_edge(corners, a, b);
   nearest.take_if_nearer(on_edge(corners, b, c));

@@ -6,7 +6,7 @@
 
 namespace tweenfall::convex {
 
-/// Up to four differences of points of two bodies, and which mix of them is nearest to zero.
+/// Up to four differences of points of two bodies, and the convex combination of them that is nearest to zero.
 struct Simplex {
   struct Corner {
     Vec3 difference;
@@ -18,8 +18,8 @@ struct Simplex {
 
   [[nodiscard]] bool has(const Vec3& difference) const;
   void add(const Corner& corner) { corners[static_cast<std::size_t>(count++)] = corner; }
-  /// Weighs the corners, drops those that the nearest mix does without.
-  /// @return that mix; zero where the corners enclose it
+  /// Computes the weights of the corners, and drops those with no weight.
+  /// @return the combination; zero if the corners enclose it
   Vec3 reduce();
   [[nodiscard]] Vec3 on_a() const;
   [[nodiscard]] Vec3 on_b() const;

@@ -16,14 +16,14 @@ using shapes::Placed;
 namespace {
 
 constexpr int most_advances = 64;
-/// Cosine of the angle between normals of one plane.
+/// Cosine of the angle within which normals belong to one plane.
 constexpr double one_plane = 1 - 1e-6;
 
 Placed placed_at(const Passage& way, double time) {
   return shapes::place(*way.course.shape, way.course.at(time).node(*way.body));
 }
 
-/// Keeps the first few of many meetings, one for each plane.
+/// Keeps the first few of many meetings, one per plane.
 class EarliestMeetings {
  public:
   explicit EarliestMeetings(double near) : near_(near) {}
@@ -42,7 +42,7 @@ class EarliestMeetings {
     if (meeting.time < last->time) *last = meeting;
   }
 
-  /// Of the rest only those toward which `way` still leads when those before them have stopped it.
+  /// After the first, only those toward which `way` still leads after the earlier ones have stopped it.
   [[nodiscard]] FirstMeetings chosen(Vec3 way) {
     std::sort(first_.begin(), first_.begin() + static_cast<std::ptrdiff_t>(count_), in_order);
     const double least = 1e-3 * way.norm();
@@ -72,7 +72,7 @@ class EarliestMeetings {
   double near_;
 };
 
-/// A solid on its way toward triangles.
+/// A solid moving toward triangles.
 class Approach {
  public:
   Approach(const Surface& surface, const Passage& way_surface, const Passage& way, double dt)
@@ -82,7 +82,8 @@ class Approach {
     at_ = seen_from(way_surface.placed, way.placed);
     velocity_ = way_surface.placed.axes.transpose() * velocity;
     acceleration_ = way_surface.placed.axes.transpose() * acceleration;
-    // A turning surface moves what is far from its middle fast; how far the solid comes within the step.
+    // A turning surface moves quickly what is far from its center, so this bounds how far away the solid gets in the
+    // step.
     const double away = (way.body->center - way_surface.body->center).norm() + way.body->radius() +
                         (velocity.norm() + acceleration.norm() * dt) * dt;
     swing_ = way.swing + way_surface.spin * away;
@@ -105,7 +106,7 @@ class Approach {
       const Vec3 normal = triangle.normal();
       const double offset = normal.dot(triangle.corners[0]);
       if (!(normal.dot(middle) > offset)) return;
-      // As far as the lowest place comes down.
+      // As far as its lowest point comes down.
       if (-core.height(-normal) - offset > extra + std::max(0.0, -normal.dot(displacement))) return;
       for (const KnownPlane& plane : known)
         if (plane.normal.dot(normal) >= one_plane && std::abs(plane.offset - offset) <= near) return;
@@ -123,7 +124,7 @@ class Approach {
       const Placed surface = time == 0 ? way_surface_.placed : placed_at(way_surface_, time);
       const Placed solid = time == 0 ? way_.placed : placed_at(way_, time);
       const Placed at = seen_from(surface, solid);
-      // Seen from the solid, so that far from the surface's origin nothing is lost.
+      // Relative to the solid, so that nothing is lost far from the surface's origin.
       std::array<Vec3, 3> corners = triangle.corners;
       for (Vec3& corner : corners) corner -= at.center;
       convex::Core flat = convex::core_of(corners, normal);

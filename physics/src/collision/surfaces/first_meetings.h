@@ -5,14 +5,14 @@
 
 namespace tweenfall::surfaces {
 
-/// When a solid on its way first comes nearer than a hair to a triangle.
+/// When a moving solid first gets nearer than a hair to a triangle.
 struct TriangleMeeting {
   double time = 0;       ///< s after the start of the step
   Vec3 normal{0, 1, 0};  ///< of the triangle, in the surface's space
   double offset = 0;     ///< of its plane along the normal, m
 };
 
-/// Planes that a solid has come near already: their triangles are not looked at.
+/// Planes that a solid is already near: their triangles are skipped.
 struct KnownPlane {
   Vec3 normal;
   double offset;
@@ -24,9 +24,9 @@ struct FirstMeetings {
   std::size_t count = 0;
 };
 
-/// The first meetings of a convex solid with triangles that it stands in front of: the very first, and of those after
-/// it the ones that it still goes toward when those before have stopped it. One for each plane.
-/// @param near  triangles that are nearer than this at the start are not looked at, nor those this near to a known
+/// The first meetings of a convex solid with triangles that it is in front of: the very first, and of the later
+/// ones those that it still moves toward after the earlier ones have stopped it. One per plane.
+/// @param near  triangles nearer than this at the start are skipped, and those this near to a known
 /// plane, m
 [[nodiscard]] FirstMeetings first_meetings(const Surface& surface, const collision::Passage& way_surface,
                                            const collision::Passage& way, std::span<const KnownPlane> known,

@@ -35,7 +35,7 @@ class GridSurface : public Surface {
     const std::uint32_t cell = index / 2, row = cell / (columns_ - 1), column = cell % (columns_ - 1);
     const std::uint32_t first = row * columns_ + column, across_cell = first + columns_ + 1;
     const std::uint32_t other = index % 2 == 0 ? first + columns_ : first + 1;
-    // Both triangles go once around the cell's corners, from the one of least x and z.
+    // Both triangles go once around the cell's corners, starting from the one of least x and z.
     const std::array<std::uint32_t, 3> its =
         index % 2 == 0 ? std::array{first, other, across_cell} : std::array{first, across_cell, other};
     return {{vertex(its[0]), vertex(its[1]), vertex(its[2])}, its};

@@ -29,13 +29,13 @@ class Surface {
   [[nodiscard]] virtual std::uint32_t across(std::uint32_t index, std::size_t side) const noexcept = 0;
 
   [[nodiscard]] const Bounds& bounds() const noexcept { return tree_.bounds(); }
-  /// The box around it on its way, which is no closer than its own box turned along.
+  /// The box around it on its path, which is at least its own box turned along.
   [[nodiscard]] Bounds bounds(const Vec3& center, const Mat3& axes) const noexcept {
     const Vec3 middle = 0.5 * (bounds().low + bounds().high), half = 0.5 * (bounds().high - bounds().low);
     const Vec3 at = center + axes * middle, reach = axes.cwiseAbs() * half;
     return {at - reach, at + reach};
   }
-  /// No place of it is farther from the origin, m.
+  /// No point of it is farther from the origin, m.
   [[nodiscard]] double reach() const noexcept {
     return bounds().low.cwiseAbs().cwiseMax(bounds().high.cwiseAbs()).norm();
   }
@@ -54,7 +54,7 @@ class Surface {
   void walk(const Enters& enters, const See& see) const {
     walk(enters, see, [](const Bounds&, const Bounds&) { return true; });
   }
-  /// First for what is nearer to a point.
+  /// Visits first what is nearer to a point.
   template <class Enters, class See>
   void walk_near(const Vec3& point, const Enters& enters, const See& see) const {
     const auto away = [&](const Bounds& box) {
@@ -62,7 +62,7 @@ class Surface {
     };
     walk(enters, see, [&](const Bounds& left, const Bounds& right) { return away(left) <= away(right); });
   }
-  /// First for what lies before the other along a direction.
+  /// Visits first what comes first along a direction.
   template <class Enters, class See>
   void walk_along(const Vec3& direction, const Enters& enters, const See& see) const {
     walk(enters, see, [&](const Bounds& left, const Bounds& right) {
@@ -79,7 +79,7 @@ class Surface {
   std::uint32_t per_item_;
 };
 
-/// The surface that a solid is; null for what has a volume.
+/// The surface that a solid is; null for solids with a volume.
 [[nodiscard]] inline const Surface* surface_of(const Solid& solid) noexcept {
   if (const auto* mesh = std::get_if<TriangleMesh>(&solid)) return &mesh->inside();
   if (const auto* field = std::get_if<HeightField>(&solid)) return &field->inside();

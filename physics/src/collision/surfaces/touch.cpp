@@ -18,14 +18,14 @@ namespace {
 
 /// Sine of the angle up to which two triangles lie in one plane.
 constexpr double lying_flat = 1e-5;
-/// Of the angle by which what is around a touched place may rise along the normal.
+/// Sine of the angle by which the surroundings of a touched point may rise along the normal.
 constexpr double rising = 1e-6;
-/// Cosine of the angle within which directions are one.
+/// Cosine of the angle within which directions count as the same.
 constexpr double one_direction = 1 - 5e-7;
-/// Triangles around a vertex that are looked at each way.
+/// How many triangles around a vertex are visited each way.
 constexpr int most_around = 64;
 
-/// Contact points that push one way.
+/// Contact points that push in one direction.
 struct TouchGroup {
   Vec3 normal{0, 1, 0};
   double least_gap = std::numeric_limits<double>::infinity();
@@ -33,7 +33,7 @@ struct TouchGroup {
   std::size_t count = 0;
 };
 
-/// A solid among the triangles of a surface, seen from the solid's place in the surface's axes.
+/// A solid among the triangles of a surface, relative to the solid's position in the surface's axes.
 class Toucher {
  public:
   Toucher(const Surface& surface, const convex::Core& core, const Vec3& place, const Vec3& middle, double margin,
@@ -73,7 +73,7 @@ class Toucher {
     return triangle;
   }
 
-  /// The corner of a neighbor that is not on the side that both share.
+  /// The corner of a neighbor that is not on the shared side.
   [[nodiscard]] Vec3 beyond(std::uint32_t neighbor, const SurfaceTriangle& triangle, std::size_t side) const {
     const SurfaceTriangle its = seen(neighbor);
     const std::uint32_t from = triangle.vertices[side], to = triangle.vertices[(side + 1) % 3];
@@ -101,7 +101,7 @@ class Toucher {
     }
     return sides;
   }
-  /// A neighbor folded back lies in the same plane, too.
+  /// Whether it faces the same way: a neighbor folded back lies in the same plane, too.
   [[nodiscard]] bool faces(std::uint32_t index, const Vec3& normal) const {
     const SurfaceTriangle its = seen(index);
     return (its.corners[1] - its.corners[0]).cross(its.corners[2] - its.corners[0]).dot(normal) > 0;
@@ -111,7 +111,7 @@ class Toucher {
     return direction.dot(to - from) > rising * (to - from).norm();
   }
 
-  /// Whether no triangle around a vertex rises along a direction; those over one side of the first one.
+  /// Whether no triangle around a vertex rises along a direction; visits those over one side of the first one.
   [[nodiscard]] bool tops_around(std::uint32_t index, const SurfaceTriangle& first, std::size_t corner,
                                  const Vec3& direction, bool forward, bool& closed) const {
     const std::uint32_t vertex = first.vertices[corner];
@@ -134,7 +134,7 @@ class Toucher {
     return true;
   }
 
-  /// Whether the part of the triangle that comes first along a direction does so among all around it.
+  /// Whether the part of the triangle that is foremost along a direction is foremost among all around it.
   [[nodiscard]] bool tops(std::uint32_t index, const SurfaceTriangle& triangle, const Vec3& direction) const {
     double top = -std::numeric_limits<double>::infinity(), length = 0;
     std::array<double, 3> heights{};
@@ -171,7 +171,7 @@ class Toucher {
     const double near = reach_ + core_.radius;
     convex::Nearness nearness = convex::nearness_of(flat, core_, near);
     if (nearness.distance > 0 && nearness.normal.dot(normal) < -rising) {
-      // Its nearest place is behind: it came around a border, or through another triangle of the plane.
+      // Its nearest point is behind: it came around a border, or through another triangle of the plane.
       if (!(-core_.height(-normal) < offset)) return;
       if (nearness.distance > near)
         nearness = convex::nearness_of(flat, core_, std::numeric_limits<double>::infinity());
@@ -192,7 +192,7 @@ class Toucher {
     add_face(index, triangle, normal, offset, sides);
   }
 
-  /// Whether the straight way from the solid's middle to a place behind a plane leads through the surface there.
+  /// Whether the straight line from the solid's middle to a point behind a plane crosses the surface there.
   [[nodiscard]] bool goes_through(const Vec3& normal, double offset, const Vec3& behind) const {
     const double above = normal.dot(middle_) - offset, below = offset - normal.dot(behind);
     if (!(above > 0 && below > 0)) return false;
@@ -239,7 +239,7 @@ class Toucher {
     return meeting;
   }
 
-  /// What lies over the triangle, within its sides. Those that go on flat cut nothing off.
+  /// Adds what lies over the triangle, within its sides. Sides that continue flat cut nothing off.
   void add_face(std::uint32_t index, const SurfaceTriangle& triangle, const Vec3& normal, double offset,
                 const Sides& sides) {
     constexpr std::uint32_t first_side = 256;
@@ -263,7 +263,7 @@ class Toucher {
           if (line >= first_side && line < first_side + 3) flat = flat && sides.flat[line - first_side];
         }
         if (flat) continue;
-        // A corner of the triangle is one of all triangles around it.
+        // A corner of the triangle belongs to all triangles around it.
         feature = 0x1000000u | ((feature * 2654435761u ^ index * 40503u) >> 8 & (of_triangle ? 0x7fffffu : 0xffffffu));
       }
       const Vec3 lowest = corner.position - corner.radius * normal;
@@ -299,7 +299,7 @@ class Toucher {
     group->points[group->count++] = point;
   }
 
-  /// Null where those that there are all go deeper.
+  /// Null if all existing ones go deeper.
   TouchGroup* group_along(const Vec3& normal, double gap) {
     for (std::size_t i = 0; i < groups_count_; ++i)
       if (groups_[i].normal.dot(normal) >= one_direction) return &groups_[i];

@@ -13,24 +13,24 @@ struct Touch {
   std::array<Manifold, most> manifolds;
   std::size_t count = 0;
 
-  /// The place of the deepest point, or the nearest; `count` where there is none.
+  /// The index of the deepest contact, or the nearest; `count` if there is none.
   [[nodiscard]] std::size_t deepest() const noexcept;
 };
 
-/// Contacts of a convex solid that stands in front of the surface's triangles; none of other solids. Sides between
-/// triangles in one plane, and hollow ones, take no part. Where more than `most` directions touch, the deepest count.
+/// Contacts of a convex solid that is in front of the surface's triangles; none for other solids. Sides between
+/// triangles in one plane, and hollow ones, are ignored. If more than `most` directions touch, the deepest are kept.
 /// @param at  of the solid, in the surface's space
-/// @param margin, reach  within the margin they touch, and then points with a gap up to the reach are told, m
+/// @param margin, reach  if they touch within the margin, points with a gap up to the reach are reported, m
 [[nodiscard]] Touch touch(const Surface& surface, const Solid& solid, const shapes::Placed& at, double margin,
                           double reach) noexcept;
 
-/// How a place is seen from another one.
+/// One pose relative to another.
 [[nodiscard]] inline shapes::Placed seen_from(const shapes::Placed& from, const shapes::Placed& placed) noexcept {
   const Mat3 into = from.axes.transpose();
   return {into * (placed.center - from.center), into * placed.axes};
 }
 
-/// The deepest of the contacts that `touch` tells, in the world.
+/// The deepest of the contacts from `touch`, in the world.
 [[nodiscard]] Manifold deepest_touch(const Surface& surface, const shapes::Placed& at_surface, const Solid& solid,
                                      const shapes::Placed& at, double margin, double reach) noexcept;
 

@@ -41,7 +41,8 @@ class MeshSurface : public Surface {
   [[nodiscard]] const std::vector<std::uint32_t>& corners() const noexcept { return corners_; }
 
  private:
-  /// Two triangles share a side where both run along it, each its own way; where more do, none of them do.
+  /// Two triangles share a side if they run along it in opposite directions; if more than two do, none of them share
+  /// it.
   void find_neighbors() {
     struct Side {
       std::uint32_t low, high, place;
@@ -76,7 +77,7 @@ void require_mesh(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("a triangle mesh " + what);
 }
 
-/// Checked, each vertex once, without triangles that have no area.
+/// The mesh checked, with each vertex once, and without triangles that have no area.
 SurfaceMesh sound(const SurfaceMesh& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3& p = mesh.positions[i];
@@ -100,7 +101,7 @@ SurfaceMesh sound(const SurfaceMesh& mesh) {
     const Vec3& a = mesh.positions[mesh.triangles[i]];
     const Vec3 along = mesh.positions[mesh.triangles[i + 1]] - a, other = mesh.positions[mesh.triangles[i + 2]] - a;
     const double length = std::max({along.norm(), other.norm(), (other - along).norm()});
-    // Each factor by itself: the square of a very small or very great length is no number.
+    // Each factor by itself: the square of a very small or very great length is not finite or 0.
     if (!(length > 0) || !((along / length).cross(other / length).norm() > 1e-9)) continue;
     for (std::size_t k = 0; k < 3; ++k) thick.triangles.push_back(mesh.triangles[i + k]);
   }

@@ -18,7 +18,7 @@ class TriangleTree {
   [[nodiscard]] const Bounds& bounds() const noexcept { return nodes_.front().bounds; }
 
   /// Calls `see(item)` for every item in boxes for which `enters(box)`, which may become false for boxes that come
-  /// later; of two branches first for the left one where `left_first(left, right)`.
+  /// later; of two branches, the left one comes first if `left_first(left, right)`.
   template <class Enters, class See, class LeftFirst>
   void walk(const Enters& enters, const See& see, const LeftFirst& left_first) const {
     std::array<std::uint32_t, most_depth> ahead;
@@ -54,7 +54,7 @@ class TriangleTree {
   return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
 }
 
-/// Whether a box that goes straight on its way meets another one.
+/// Whether a box that moves along a straight path meets another one.
 [[nodiscard]] bool meets_on_way(const Bounds& moving, const Vec3& way, const Bounds& box);
 
 }  // namespace tweenfall::surfaces
