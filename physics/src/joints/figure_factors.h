@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is done with rows of figures: their speeds and impulses, and the factors of all that are in.
+/// Operations on the rows of figures: their speeds and impulses, and the factors of all rows that are `in`.
 
 #include "islands/blocks/kernels/registers.h"
 #include "joints/figure_lanes.h"
@@ -28,7 +28,7 @@ using blocks::Wide3;
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-/// Keeps g++ from finding what comes of several comparisons at once: of eight numbers it does so one by one.
+/// Keeps g++ from combining several comparisons at once, which for eight numbers it does one by one.
 template <class Register>
 TWEENFALL_LANES void stay(Register&) {}
 #if defined(__x86_64__) || defined(__i386__)
@@ -59,7 +59,7 @@ TWEENFALL_LANES bool any_bit(const Halves<Half>& numbers) {
 
 constexpr std::uint32_t rows_of_joint = FigureJoint::most_rows;
 
-/// Calls what is made for so many rows: of a point alone, or with some bounds; the compiler then knows their number.
+/// Calls the version made for this number of rows: of a point alone, or with some bounds; so the compiler knows it.
 #define TWEENFALL_OF_ROWS(count, function, ...) \
   switch (count) {                              \
     case 3:                                     \
@@ -79,8 +79,8 @@ constexpr std::uint32_t rows_of_joint = FigureJoint::most_rows;
       break;                                    \
   }
 
-/// In registers of one kind. Conditions are 1 or 0 in each lane: products of them are found faster than what comes of
-/// several comparisons.
+/// For registers of one kind. Conditions are 1 or 0 in each lane: their products are computed faster than combinations
+/// of comparisons.
 template <class Register>
 struct FigureFactors {
   using Number = Wide<Register>;
@@ -111,7 +111,7 @@ struct FigureFactors {
 
   // Velocities
 
-  /// Where the velocity of a body in each lane is; `nobody` where there is none.
+  /// Where the velocity of a body in each lane is; `nobody` if there is none.
   TWEENFALL_LANES static void find(const Figures& figures, std::uint32_t body, BodyLanes& nobody, double** rows) {
     for (int lane = 0; lane < lane_count; ++lane)
       rows[lane] =
@@ -131,7 +131,7 @@ struct FigureFactors {
       angular.put(figures.bodies[i].angular);
     }
   }
-  /// Adding 0 makes every 0 a positive one, whatever the other lanes have.
+  /// Adding 0 turns -0 into 0, so that other lanes do not show in the result.
   TWEENFALL_LANES static void write(const Figures& figures) {
     BodyLanes nobody;
     for (std::uint32_t i = 0; i < figures.body_count; ++i) {
@@ -185,7 +185,7 @@ struct FigureFactors {
       (Vector(b.angular) + b.inverse_inertia * sum.twist_b).put(b.angular);
     }
   }
-  /// One row by itself.
+  /// For one row alone.
   TWEENFALL_LANES static void apply(Figures& figures, const FigureJoint& joint, std::uint32_t row, const FigureRow& its,
                                     const Number& impulse) {
     Sum sum{no_vector(), no_vector(), no_vector(), no_vector()};
@@ -211,7 +211,7 @@ struct FigureFactors {
   TWEENFALL_LANES static const Lanes& part_of_vector(const Lanes3& vector, std::uint32_t axis) {
     return axis == 0 ? vector.x : axis == 1 ? vector.y : vector.z;
   }
-  /// Adds what the pushes of two rows do through a mass.
+  /// Adds the effect that the linear parts of two rows have on each other through a mass.
   TWEENFALL_LANES static Number with_push(const Number& sum, const Number& mass, const FigureJoint& joint1,
                                           const FigureRow* rows1, std::uint32_t row1, bool by_b1,
                                           const FigureJoint& joint2, const FigureRow* rows2, std::uint32_t row2,
@@ -226,7 +226,7 @@ struct FigureFactors {
     return sum + mass * dot(linear1, Vector(linear2));
   }
 
-  /// Speed that a row gains by a unit of its own impulse.
+  /// Speed that a row gains per unit of its own impulse.
   TWEENFALL_LANES static Number inverse_of(const Figures& figures, std::uint32_t place, std::uint32_t row) {
     const FigureJoint& joint = figures.joints[place];
     const FigureRow* rows = rows_of(figures, place);
@@ -259,7 +259,7 @@ struct FigureFactors {
       }
   }
 
-  /// How an impulse along one row changes the speed that another sees through a body that both hold.
+  /// How an impulse along one row changes the speed of another, through a body that both act on.
   TWEENFALL_LANES static void share(const Figures& figures, std::uint32_t place, bool by_b, const Vector* spins,
                                     std::uint32_t later, bool later_by_b, Lanes* block, bool first) {
     const FigureJoint &own = figures.joints[place], &other = figures.joints[later];
@@ -324,7 +324,7 @@ struct FigureFactors {
           sum.put(diagonal[i * count + k]);
           continue;
         }
-        // What is not in wants nothing, and gets it.
+        // A row that is not `in` wants speed 0, and gets it.
         const Number out = Number(1.0) - Number(row.in);
         const Number inverse = row.in * sum + out;
         inverse.put(row.inverse);
@@ -370,8 +370,8 @@ struct FigureFactors {
       }
   }
 
-  /// Takes what the place does to those after it out of them. @param known  rows of the joint, or 0 for any number:
-  /// those of most joints' points are known to the compiler
+  /// Eliminates a joint: subtracts its effect from the later ones. @param known  rows of the joint, or 0 for any
+  /// number: the compiler then knows it, for the points of most joints
   template <std::uint32_t known>
   TWEENFALL_LANES static void eliminate(Figures& figures, std::uint32_t place) {
     const FigureJoint& joint = figures.joints[place];
@@ -481,7 +481,7 @@ struct FigureFactors {
       TWEENFALL_OF_ROWS(figures.joints[place].in_count, solve_up, figures, place)
     }
   }
-  /// The impulses that came out, on the bodies.
+  /// Applies the resulting impulses to the bodies.
   TWEENFALL_LANES static void give_values(Figures& figures) {
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
       const FigureJoint& joint = figures.joints[place];

@@ -15,7 +15,7 @@ using blocks::Lanes3;
 namespace {
 
 constexpr std::uint32_t moving_end = 0x80000000u;
-constexpr std::size_t numbers_of_joint = 3;  ///< of a shape
+constexpr std::size_t numbers_of_joint = 3;  ///< numbers per joint in a shape
 
 void put(const Vec3& value, Lanes3& lanes, int lane) {
   lanes.x[lane] = value.x();
@@ -30,7 +30,7 @@ void put(const Quat& value, LanesQuat& lanes, int lane) {
   lanes.z[lane] = value.z();
 }
 
-/// A row that the lane does not have.
+/// Clears a row that the lane does not have.
 void clear(FigureRow& row, int lane) {
   for (Lanes3* vector : {&row.linear_a, &row.turn_a, &row.linear_b, &row.turn_b}) put(Vec3(0, 0, 0), *vector, lane);
   for (Lanes* number : {&row.wanted, &row.wanted_after, &row.left, &row.compliance, &row.low, &row.high, &row.impulse,
@@ -45,7 +45,7 @@ void FigureGroup::find_shape(std::span<const FigurePlan::Member> members, std::s
   shape.clear();
   std::uint32_t bodies = 0;
   const auto number_of = [&](std::uint32_t place, bool moves) {
-    // What does not move holds nothing together.
+    // An immovable body holds nothing together.
     if (!moves) return bodies++;
     if (local[place] == 0) local[place] = ++bodies;
     return (local[place] - 1) | moving_end;
@@ -92,7 +92,7 @@ void FigureGroup::begin(const FigurePlan& plan, const Shape& shape, bool whole) 
   }
   frames_.clear();
   if (in_lanes) {
-    // Lanes that no figure has lie straight.
+    // Lanes without a figure get straight joints.
     FigureFrame straight{};
     straight.axes_a.w = straight.axes_b.w = straight.swing_y = straight.swing_z = straight.twist_high = blocks::all(1);
     straight.twist_low = blocks::all(-1);
@@ -192,7 +192,7 @@ void FigureGroup::keep_impulses() {
     if (joint.writing == Writing::by_kind) continue;
     for (std::size_t i = 0; i < joint.count; ++i)
       for (int lane = 0; lane < lane_count; ++lane)
-        // Adding 0 makes every 0 a positive one, whatever the other lanes have.
+        // Adding 0 turns -0 into 0, so that other lanes do not show in the result.
         frames_[place].impulses[joint.sources[i]][lane] = rows_[most_rows * place + i].impulse[lane] + 0.0;
   }
 }
@@ -210,7 +210,7 @@ void FigureGroup::load(std::uint32_t place, int lane, const JointRows& rows, con
     slots_[number][static_cast<std::size_t>(lane)] = static_cast<std::uint8_t>(slot);
     FigureRow& to = rows_[number];
     const bool bounded = slot >= rows.together;
-    // What holds a point is known by the arms.
+    // The arms give the directions of rows that hold the point.
     if (!rows.point || slot >= 3) {
       put(from.direction.linear_a, to.linear_a, lane);
       put(from.direction.turn_a, to.turn_a, lane);
@@ -237,7 +237,7 @@ void FigureGroup::load(std::uint32_t place, int lane, const JointRows& rows, con
   holds_[place][static_cast<std::size_t>(lane)] = static_cast<std::uint8_t>(rows.together);
 }
 
-/// A copy has its own.
+/// A copy points at its own data.
 void FigureGroup::point_at_own() {
   lanes_.bodies = bodies_.data();
   lanes_.joints = joints_.data();
@@ -290,7 +290,7 @@ void FigureGroup::unload(std::uint32_t place, int lane, std::array<double, most_
   }
   for (std::size_t i = 0; i < counts_[place][static_cast<std::size_t>(lane)]; ++i) {
     const std::size_t number = most_rows * place + i;
-    // Adding 0 makes every 0 a positive one, whatever the other lanes have.
+    // Adding 0 turns -0 into 0, so that other lanes do not show in the result.
     impulses[slots_[number][static_cast<std::size_t>(lane)]] = rows_[number].impulse[lane] + 0.0;
   }
 }

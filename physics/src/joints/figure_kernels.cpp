@@ -8,17 +8,17 @@ namespace tweenfall::joints {
 
 namespace {
 
-/// So often rows change places between those in and those beside, before those that bound stay where they are.
+/// Rounds in which rows change places between `in` and beside, before those that bound stay where they are.
 constexpr int most_rounds = 4;
-/// What is passed by less than this is not, m/s or rad/s.
+/// A bound passed by less than this is not passed, m/s or rad/s.
 constexpr double passable = 1e-10;
-/// What stayed where it was and presses on although it parts, or moves as it is driven, faster by more than this has
-/// come out of rounds that led astray, m/s or rad/s.
+/// If a row at its bound presses on although it parts, or although it moves faster than it is driven, by more than
+/// this, the rounds led astray, m/s or rad/s.
 constexpr double astray = 0.02;
-/// So often such rows are then met one after another.
+/// Passes in which such rows are then solved one after another.
 constexpr int most_passes = 12;
 
-/// How what is in and what is beside change places, in registers of one kind.
+/// How rows change places between `in` and beside, in registers of one kind.
 template <class Register>
 struct FigureWork : FigureWriting<Register> {
   using Factors = FigureFactors<Register>;
@@ -51,7 +51,7 @@ struct FigureWork : FigureWriting<Register> {
 
   // Rounds
 
-  /// What says nothing new has no impulse.
+  /// Gives redundant rows no impulse.
   TWEENFALL_LANES static void drop_silent(Figures& figures, const Number& live) {
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
       const FigureJoint& joint = figures.joints[place];
@@ -71,7 +71,7 @@ struct FigureWork : FigureWriting<Register> {
     return lack_of(row, speed, moving) - (Number(give) * row.inverse) * row.impulse;
   }
 
-  /// Solves all rows that are in, of some lanes, for the speeds that they want. @return lanes in which one has bounds
+  /// In some lanes, solves all rows that are `in` for the speeds that they want. @return lanes in which one has bounds
   TWEENFALL_LANES static Number solve_in(Figures& figures, const Number& live, bool moving) {
     if (figures.silent) drop_silent(figures, live);
     Number bounded = nothing();
@@ -111,7 +111,7 @@ struct FigureWork : FigureWriting<Register> {
     return bounded;
   }
 
-  /// Lets in what is beside and would be passed. @return lanes in which anything came in
+  /// Lets in rows beside whose bounds would be passed. @return lanes in which any came in
   TWEENFALL_LANES static Number admit(Figures& figures, const Number& live, bool moving) {
     Number changed = nothing();
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
@@ -133,7 +133,7 @@ struct FigureWork : FigureWriting<Register> {
     return changed;
   }
 
-  /// Takes out what came to lie beyond its bound, or at it. @param everything  also what did not
+  /// Takes out rows that got beyond their bounds, or to them. @param everything  also all others with bounds
   TWEENFALL_LANES static Number dismiss(Figures& figures, const Number& live, bool everything) {
     Number changed = nothing();
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
@@ -158,7 +158,7 @@ struct FigureWork : FigureWriting<Register> {
     return changed;
   }
 
-  /// @return of these lanes those in which something presses where it should pull
+  /// @return those of the given lanes in which something presses where it should pull
   TWEENFALL_LANES static Number led_astray(const Figures& figures, const Number& live, bool moving) {
     Number found = nothing();
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
@@ -176,9 +176,9 @@ struct FigureWork : FigureWriting<Register> {
     return live * found;
   }
 
-  /// Begins anew without what bounds or drives, and meets it row by row, all that holds between: far slower to agree,
-  /// but every row lets energy go, as it should.
-  /// Source: Cottle, Pang and Stone, The Linear Complementarity Problem, 1992, 5.2 (projected Gauss-Seidel).
+  /// Starts over without the rows that bound or drive, and then solves them one by one, with all rows that hold solved
+  /// in between: this converges far slower, but every row takes energy out, as it should. Source: Cottle, Pang and
+  /// Stone, The Linear Complementarity Problem, 1992, 5.2 (projected Gauss-Seidel).
   TWEENFALL_LANES static void begin_anew(Figures& figures, const Number& live, bool moving) {
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
       const FigureJoint& joint = figures.joints[place];
@@ -232,7 +232,7 @@ struct FigureWork : FigureWriting<Register> {
       }
       Number changed;
       if (round == most_rounds) {
-        // What holds has the last word.
+        // Rows that hold have the last word.
         changed = again = dismiss(figures, live, true);
         finished = true;
       } else {
@@ -336,7 +336,7 @@ struct FigureWork : FigureWriting<Register> {
         turn = turn + impulse * rows[i].turn_b;
       }
       turn = turn - cross(Vector(joint.arm_b), push);
-      // What holds the point pushes there.
+      // The rows of the point push there.
       if (joint.point) push = push + Vector(rows[0].impulse, rows[1].impulse, rows[2].impulse);
       (Vector(joint.push) + push).put(joint.push);
       (Vector(joint.turn) + turn).put(joint.turn);
@@ -344,7 +344,7 @@ struct FigureWork : FigureWriting<Register> {
   }
 };
 
-/// With pointers of its own, which nothing that is written to lanes can change.
+/// The copy has pointers of its own, which no write to lanes can change.
 #define TWEENFALL_FIGURE_KERNEL(name, Numbers, target, work, Given, given) \
   target void work##_##name Given {                                        \
     Figures own = figures;                                                 \

@@ -6,7 +6,7 @@ namespace tweenfall::joints {
 
 namespace {
 
-/// More blocks than this for a joint are more work than going around joint by joint.
+/// More blocks per joint than this are more work than solving joint by joint.
 constexpr std::size_t most_blocks = 16;
 constexpr std::uint32_t unseen = 0xffffffffu;
 
@@ -63,7 +63,7 @@ void FigurePlan::order(Room& room) {
       }
     }
   };
-  // What hangs on something that cannot move begins there.
+  // A tree that hangs on something immovable starts there.
   for (const Member& member : members_) {
     if (!member.a_moves && member.b_moves) start(member.b);
     if (!member.b_moves && member.a_moves) start(member.a);
@@ -76,7 +76,7 @@ void FigurePlan::order(Room& room) {
   }
   const auto depth_of = [&](std::uint32_t i) {
     const Member& member = members_[i];
-    // One that hangs on something fixed lies a step nearer than any other of its body.
+    // A joint to something fixed is one step nearer than any other joint of its body.
     const std::uint32_t a = member.a_moves ? depth[member.a] + 1 : 0;
     const std::uint32_t b = member.b_moves ? depth[member.b] + 1 : 0;
     return a + b;
@@ -97,7 +97,7 @@ bool FigurePlan::find_structure(Room& room) {
   if (room.later.size() < count) room.later.resize(count);
   for (std::size_t place = 0; place < count; ++place) room.later[place].clear();
   std::size_t pairs = 0;
-  // Of a body's members each acts on all that come later; a body of very many is no tree's.
+  // Of the members at a body, each affects all that come later; a body with very many is not part of a tree.
   for (std::uint32_t i = 0; i < count; ++i)
     for (const bool by_b : {false, true}) {
       if (!(by_b ? members_[i].b_moves : members_[i].a_moves)) continue;
@@ -116,7 +116,7 @@ bool FigurePlan::find_structure(Room& room) {
     first_[place] = static_cast<std::uint32_t>(later_.size());
     later_.insert(later_.end(), own.begin(), own.end());
     if (later_.size() > most_blocks * count) return false;
-    // What it acts on acts on each other once it is gone.
+    // The members that it affects affect each other once it is eliminated.
     if (!own.empty()) room.later[own.front()].insert(room.later[own.front()].end(), own.begin() + 1, own.end());
   }
   first_[count] = static_cast<std::uint32_t>(later_.size());

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Rows of joints that are written in all lanes at once: those of points, and of limbs with hard bounds. What they say
-/// is what `write_rows` says for one lane.
+/// Writes rows of joints in all lanes at once: those of points, and of limbs with hard bounds. The rows are those
+/// that `write_rows` gives for one lane.
 
 #include "joints/figure_factors.h"
 #include "joints/kinds/kinds.h"
@@ -11,7 +11,7 @@ namespace tweenfall::joints {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-/// In registers of one kind.
+/// For registers of one kind.
 template <class Register>
 struct FigureWriting : FigureFactors<Register> {
   using Factors = FigureFactors<Register>;
@@ -29,7 +29,7 @@ struct FigureWriting : FigureFactors<Register> {
     Number w;
     Vector v;
   };
-  /// How b lies in a's frame.
+  /// b's frame relative to a's.
   struct Relative {
     Rotation axes_a;
     Vector x_a, x_b;  ///< of both frames, world axes
@@ -57,8 +57,8 @@ struct FigureWriting : FigureFactors<Register> {
   TWEENFALL_LANES static Number within(const Number& value, double most) {
     return lesser(greater(value, number(-most)), number(most));
   }
-  /// Four times the angle whose tangent is given, -1 to 1. Halved twice, and then the series; what that leaves out is
-  /// below 1e-17.
+  /// Four times the angle whose tangent is given, -1 to 1. It is halved twice, and then comes the series, whose error
+  /// is below 1e-17.
   TWEENFALL_LANES static Number four_angles(const Number& tangent) {
     const Number half = tangent / (number(1) + root(number(1) + tangent * tangent));
     const Number quarter = half / (number(1) + root(number(1) + half * half));
@@ -112,7 +112,7 @@ struct FigureWriting : FigureFactors<Register> {
     }
   }
 
-  /// Keeps b from turning about an axis beyond a bound. @param gap  to the bound @param near  lanes that it concerns
+  /// Keeps b from turning about an axis beyond a bound. @param gap  to the bound @param near  lanes that need it
   TWEENFALL_LANES static void write_bound(Figures& figures, std::uint32_t place, const WriteRule& rule,
                                           const Vector& axis, const Number& gap, const Number& near,
                                           std::uint8_t source) {
@@ -149,7 +149,7 @@ struct FigureWriting : FigureFactors<Register> {
     Number y, z;             ///< rad
     Number angle;            ///< of both, rad
     Number w, sin_y, sin_z;  ///< its quaternion
-    Number cotangent, rest;  ///< half of the angle times its cotangent, and what that leaves
+    Number cotangent, rest;  ///< half of the angle times its cotangent, and the remainder of the series
   };
   TWEENFALL_LANES static Swing swing_of(const Relative& b) {
     const Number length = root(b.w * b.w + b.x * b.x);
@@ -170,7 +170,7 @@ struct FigureWriting : FigureFactors<Register> {
                         number(1.0 / 12));
     return swing;
   }
-  /// The axis along which an angular velocity changes what has this gradient, in the world: see swing_twist.cpp.
+  /// The axis in the world along which an angular velocity changes a quantity with this gradient: see swing_twist.cpp.
   TWEENFALL_LANES static Vector axis_of(const Relative& b, const Swing& swing, const Number& along_y,
                                         const Number& along_z) {
     const Number across = swing.y * along_z - swing.z * along_y;
@@ -190,7 +190,7 @@ struct FigureWriting : FigureFactors<Register> {
     FigureFrame& frame = figures.frames[place];
     const Number most_y = frame.swing_y, most_z = frame.swing_z;
     const Number twist_part = b.w * b.w + b.x * b.x, swing_part = b.y * b.y + b.z * b.z;
-    // Half an angle is at most its tangent: most limbs need no angle to be seen well inside.
+    // Half an angle is at most its tangent: most limbs are seen to be well inside without computing the angle.
     const Number inside = lesser(most_y, most_z) - b.far;
     Number near =
         used * (number(1) - one_if(inside > nothing()) * one_if(inside * inside * twist_part > number(4) * swing_part));
@@ -215,7 +215,7 @@ struct FigureWriting : FigureFactors<Register> {
     const Number side_y = select(sloping, gradient_y / steepness, nothing());
     const Number side_z = select(sloping, gradient_z / steepness, nothing());
     const Number gap = select(sloping, (number(1) - share) / steepness, nothing());
-    // The last impulse was on the side where the limb was then.
+    // The last impulse belongs to the side on which the limb was then.
     const Number same = side_y * frame.side_y + side_z * frame.side_z;
     (greater(same, nothing()) * frame.impulses[row_of_cone]).put(frame.impulses[row_of_cone]);
     select(sloping, side_y, frame.side_y).put(frame.side_y);
@@ -225,7 +225,8 @@ struct FigureWriting : FigureFactors<Register> {
     };
     const Number cone = in_reach(slopes, gap);
     write_bound(figures, place, rule, negative(axis_of(b, swing, side_y, side_z)), gap, cone, row_of_cone);
-    // At the ends of a narrow ellipse one row turns from side to side and lets the limb slip past: they are blunted.
+    // At the ends of a narrow ellipse, a single row turns from side to side and lets the limb slip past: two more cut
+    // them off.
     const Number most = greater(most_y, most_z);
     const Number narrow = near * one_if(lesser(most_y, most_z) < number(narrow_ellipse) * most);
     const Number along_y = one_if(most_y > most_z), along_z = number(1) - along_y;
@@ -252,7 +253,7 @@ struct FigureWriting : FigureFactors<Register> {
     const Number length = root(b.w * b.w + b.x * b.x);
     const Number sine = select(b.w < nothing(), -b.x, b.x);
     const Number twist = select(length > nothing(), four_angles(sine / (length + size_of(b.w))), nothing());
-    // About which b twists: halfway between both x axes, as long as the twist is fast.
+    // The axis about which b twists: halfway between both x axes, as long as the twist is fast.
     const Number sum = number(1) + dot(b.x_a, b.x_b);
     const Which follows = sum > number(1e-9);
     const Number half = select(follows, number(1) / sum, number(1));

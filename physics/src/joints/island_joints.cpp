@@ -14,16 +14,17 @@ using blocks::IslandBody;
 
 namespace {
 
-/// Share of an error that a sub-step takes apart.
+/// Share of an error that a sub-step corrects.
 constexpr double taken_apart = 0.3;
-/// In shorter steps than this, s, errors are taken apart more slowly: the speed that it needs is the shorter the step
-/// the greater.
+/// In shorter steps than this, s, errors are corrected more slowly: the shorter the step, the greater the
+/// speed it needs.
 constexpr double unhurried = 1e-3;
-/// Impulses of sub-steps much shorter than the last one kept hold mostly rounding, which would grow with the ratio.
+/// Impulses of sub-steps much shorter than the last one kept are mostly rounding, which would grow with the ratio.
 constexpr double long_enough = 0.15;
-/// After so many times the last one's length what it told is old.
+/// After this many times the length of the last kept sub-step, its impulses are too old.
 constexpr double old_after = 24;
-/// So often places are brought together at the end of a step, and how near they are then by once more, m or rad.
+/// Most rounds that close errors at the end of a step; one that starts with errors below `closed`, m or rad, is the
+/// last.
 constexpr int most_closings = 5;
 constexpr double closed = 2e-3;
 
@@ -113,7 +114,7 @@ void IslandJoints::find_figures(const std::vector<IslandBody>& island) {
     const std::uint32_t a = root_of(member.a), b = root_of(member.b);
     roots_[std::max(a, b)] = std::min(a, b);
   }
-  // Sorted by root, and in their order otherwise.
+  // Sorted by root, and otherwise in their order.
   sorted_.clear();
   for (std::size_t i = 0; i < members_.size(); ++i)
     sorted_.push_back(std::uint64_t{root_of(members_[i].a_moves ? members_[i].a : members_[i].b)} << 32u | i);
@@ -225,14 +226,14 @@ void IslandJoints::end_sub_step() {
   });
 }
 
-/// Newton's method for the places, by the factors that the velocities need next. A blow turns limbs far within a
-/// sub-step: what holds along straight lines leaves the arcs, and bounds are passed.
+/// Newton's method for positions, with the factors that the velocities need next. A blow turns limbs far within a
+/// sub-step: rows that hold along straight lines leave the arcs, and bounds are passed.
 void IslandJoints::close_gaps(FigureGroup& group, const std::vector<state::Body>& bodies,
                               std::vector<IslandBody>& island, const std::vector<BodyLanes>& velocities) {
   blocks::Lanes live = blocks::all(1);
   blocks::Lanes widest;
   for (int round = 0; round < most_closings; ++round) {
-    // What holds has the last word.
+    // Rows that hold have the last word.
     const bool last = round + 1 == most_closings;
     fastest_figure_kernels().close(group.figures(), last, live, widest);
     bool any = false;
@@ -260,7 +261,7 @@ void IslandJoints::end_step(const std::vector<state::Body>& bodies, std::vector<
   each_group([&](const FigureGroup& group) { unload(group, true); });
   store();
   closing_ = true;
-  // All see the places where the last sub-step ended.
+  // All see the positions at the end of the last sub-step.
   each_group([&](FigureGroup& group) {
     group.load_bodies(island);
     write(group, blocks::all(1), bodies, island, velocities);

@@ -12,42 +12,42 @@
 
 namespace tweenfall::joints {
 
-/// The joints of islands in sub-steps: errors are taken apart while bodies move, and the speed of that is taken away
-/// again. What hangs together by joints is solved at once: what holds, and of what bounds or drives all that is not at
-/// its bound.
-/// Sources: Macklin and others, Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024 (relaxation);
-/// Cottle, Pang and Stone, The Linear Complementarity Problem, 1992 (rows change places by the signs that come out).
+/// The joints of islands in sub-steps: errors are corrected while bodies move, and the speed this gave is removed
+/// afterwards. Joints that are connected are solved at once: the rows that hold, and of those that bound or drive all
+/// that are not at their bounds. Sources: Macklin and others, Small Steps in Physics Simulation, SCA 2019; Catto,
+/// Solver2D, 2024 (relaxation); Cottle, Pang and Stone, The Linear Complementarity Problem, 1992 (rows change places by
+/// the signs of the results).
 class IslandJoints {
  public:
-  /// Begins with the impulses that the joints kept.
+  /// Starts with the impulses that the joints kept.
   /// @param places  from a body's index to its place in the island; 0 for none, and for the world
   void build(std::span<JointLink* const> links, const std::vector<state::Body>& bodies,
              const std::vector<std::uint32_t>& places, const std::vector<blocks::IslandBody>& island, double h,
              double dt, const threads::Workers& workers);
   [[nodiscard]] bool empty() const { return joints_.empty(); }
 
-  /// Rows for the bodies as they stand, and the impulses of the sub-step before applied again.
-  /// @param starts  velocities with which the sub-step begins
+  /// Writes the rows for the present positions of the bodies, and applies the impulses of the sub-step before again.
+  /// @param starts  velocities at the start of the sub-step
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
                       const std::vector<blocks::BodyLanes>& starts, std::vector<blocks::BodyLanes>& velocities);
   /// One pass over all joints, forward or backward.
-  /// @param moving  errors are being taken apart
+  /// @param moving  errors are being corrected
   void solve(std::vector<blocks::BodyLanes>& velocities, bool moving, bool backward);
-  /// Marks the bodies that a joint acts on in this sub-step. Calls `anchored(place)` for those on which one acts that
-  /// ends in something that nothing moves.
+  /// Marks the bodies that a joint acts on in this sub-step. Calls `anchored(place)` for those with an active joint
+  /// whose other end is immovable.
   template <class Anchored>
   void find_held(std::vector<blocks::IslandBody>& island, const Anchored& anchored) const {
     each([&](const FigureGroup& group, std::uint32_t place, int lane) {
       if (!group.acts(place, lane)) return;
       const Entry& entry = joints_[group.joint(place, lane)];
       island[entry.a].jointed = island[entry.b].jointed = true;
-      // Pulleys are held by nothing that moves.
+      // Pulleys hang on nothing that moves.
       const bool hangs = std::holds_alternative<PulleyJoint>(entry.joint->settings.kind);
       if (hangs || !moves(island, entry.a)) anchored(entry.b);
       if (hangs || !moves(island, entry.b)) anchored(entry.a);
     });
   }
-  /// Calls `acts(place, place)` for both ends of the joints that act in this sub-step.
+  /// Calls `acts(place, place)` with both ends of each joint that acts in this sub-step.
   template <class Acts>
   void each_acting(const Acts& acts) const {
     each([&](const FigureGroup& group, std::uint32_t place, int lane) {
@@ -57,17 +57,17 @@ class IslandJoints {
   }
   /// The bodies move with these velocities.
   void move(const std::vector<blocks::BodyLanes>& velocities);
-  /// Adds up what the sub-step did.
+  /// Adds up the impulses of the sub-step.
   void end_sub_step();
-  /// Begins the next sub-step without impulses of joints on bodies for which `wild(place)` holds.
+  /// Starts the next sub-step without impulses of joints on bodies for which `wild(place)` holds.
   template <class Wild>
   void forget(const Wild& wild) {
     for (FigureGroup& group : groups())
       for (int lane = 0; lane < group.lanes(); ++lane)
         if (wild(group.moving_body(lane))) group.forget(lane);
   }
-  /// Gives impulses, forces and torques back to the joints, takes what is left of errors away by moving the bodies, and
-  /// gives them velocities that fit the places where the step ends.
+  /// Returns impulses, forces and torques to the joints, removes the remaining errors by moving the bodies, and
+  /// gives them velocities that fit their final positions.
   void end_step(const std::vector<state::Body>& bodies, std::vector<blocks::IslandBody>& island,
                 std::vector<blocks::BodyLanes>& velocities);
 
@@ -91,8 +91,8 @@ class IslandJoints {
       for (std::uint32_t place = 0; place < group.size(); ++place)
         for (int lane = 0; lane < group.lanes(); ++lane) see(group, place, lane);
   }
-  /// Calls see(group) for every group: for those of whole figures, which have no body in common, on all threads.
-  /// @param backward  the others from the last to the first
+  /// Calls see(group) for every group; groups of whole figures, which have no body in common, run on all threads.
+  /// @param backward  visits the others from the last to the first
   template <class See>
   void each_group(const See& see, bool backward = false) {
     const auto see_if = [&](std::size_t i, bool whole) {
@@ -104,9 +104,9 @@ class IslandJoints {
   void find_figures(const std::vector<blocks::IslandBody>& island);
   void frame(FigureGroup& group, const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island);
   void add_figure(const FigurePlan& plan, const FigureGroup::Shape& shape, bool whole);
-  /// A plan that was made for figures that hang together in one way.
+  /// A plan that was made for figures connected in one way.
   struct KnownPlan {
-    FigureGroup::Shape given;  ///< how: as a shape, in the order in which the joints were
+    FigureGroup::Shape given;  ///< the shape, in the original order of the joints
     FigurePlan plan;
     FigureGroup::Shape shape;
     bool found = false;
@@ -122,22 +122,22 @@ class IslandJoints {
                   const std::vector<blocks::BodyLanes>& velocities);
 
   std::vector<Entry> joints_;
-  std::vector<FigureGroup> groups_;  ///< of the islands with most so far: one takes long to make
+  std::vector<FigureGroup> groups_;  ///< as many as any islands needed so far, since making one takes long
   std::size_t group_count_ = 0;
-  std::vector<std::uint32_t> gears_;  ///< of joints_
+  std::vector<std::uint32_t> gears_;  ///< in joints_
   static constexpr std::size_t most_known = 8;
-  std::vector<KnownPlan> known_;  ///< those of figures seen lately
-  std::size_t next_known_ = 0;    ///< gives way to the next one
+  std::vector<KnownPlan> known_;  ///< of figures seen lately
+  std::size_t next_known_ = 0;    ///< the next one to be replaced
   FigurePlan plan_;
   FigurePlan::Room room_;
   FigureGroup::Shape shape_;
   std::vector<FigurePlan::Member> members_, given_;
-  std::vector<std::uint64_t> sorted_;  ///< roots of members, and which ones
+  std::vector<std::uint64_t> sorted_;  ///< roots of members, with their indices
   std::vector<std::uint32_t> kinds_;   ///< of joints_
   std::vector<std::uint32_t> roots_, local_;
   double h_ = 0, dt_ = 0, rate_ = 0;
   threads::Workers work_;
-  bool closing_ = false;  ///< the step is over but for the errors that are left
+  bool closing_ = false;  ///< the step is over except for the remaining errors
 };
 
 }  // namespace tweenfall::joints

@@ -9,7 +9,7 @@ namespace tweenfall {
 namespace joints {
 namespace {
 
-/// Of the same direction, its greatest part 1, so that no square of it leaves the range of numbers; or zero.
+/// The same direction with a greatest component of 1, so that no square overflows; or zero.
 Vec3 scaled(const Vec3& direction) {
   const double most = direction.cwiseAbs().maxCoeff();
   return most > 0 ? Vec3(direction / most) : Vec3(0, 0, 0);
@@ -26,7 +26,7 @@ JointFrames joint_frames(const Pose& a, const Pose& b, const Vec3& point, const 
   const Vec3 x = along / along.norm();
   Vec3 y = across - x * x.dot(across);
   if (!(y.norm() > 1e-9 * across.norm())) {
-    // The axis of the world that lies farthest off x.
+    // The axis of the world that is farthest from x.
     Vec3::Index least = 0;
     x.cwiseAbs().minCoeff(&least);
     y = Vec3::Unit(least) - x * x[least];

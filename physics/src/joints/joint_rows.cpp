@@ -68,16 +68,16 @@ void JointRows::idle(std::size_t many) {
   }
 }
 
-/// Toward where the error is 0.
+/// Moves toward where the error is 0.
 void JointRows::draw_near(Row& row, double error, bool angular) {
   const double fastest = angular ? fastest_turn : fastest_approach;
   row.wanted += std::clamp(-rate_ * error, -fastest, fastest);
   row.left = std::clamp(-error, -fastest * dt_, fastest * dt_);
 }
 
-/// What moves straight for a sub-step leaves its arc: half of the bend brings it back onto it, and the other half is
-/// what the next sub-step begins with, so that no energy is lost on the way around. Source: Andersen, Rattle, Journal
-/// of Computational Physics 52, 1983.
+/// A body that moves straight for a sub-step leaves its arc: half of the bend brings it back onto the arc, and the
+/// other half is what the next sub-step starts with, so that no energy is lost on the way around. Source: Andersen,
+/// Rattle, Journal of Computational Physics 52, 1983.
 void JointRows::hold(const Direction& direction, double error, double bend) {
   Row& row = add(direction);
   row.wanted = row.wanted_after = -0.5 * h_ * bend;
@@ -140,8 +140,8 @@ Allowed JointRows::bound(const Direction& direction, double position, const Limi
       if (parts[count - 1] == Part::idle) continue;
     } else {
       Row& row = add(low ? direction : -direction);
-      // What is taut goes around as what is held does: the little that an arc leaves of a gap is taken back in the
-      // sub-step, and no speed is left of it.
+      // A taut row goes around like a row that holds: the small gap that an arc leaves is removed in the
+      // sub-step, and no speed remains from it.
       const double around = -0.5 * h_ * (low ? bend : -bend);
       row.wanted = around + (gap > 0 ? -gap / h_ : 0);
       row.wanted_after = gap > h_ * std::abs(around) ? row.wanted : around;
@@ -198,7 +198,7 @@ void JointRows::spring(const Direction& direction, double error, double stiffnes
 }
 
 double JointRows::bend_of(double length, const Vec3& side, const Vec3& rate, const Vec3& bend) const {
-  // What passes close by in the sub-step goes around for a part of it only: with the length then, by Pythagoras.
+  // A body that passes close by goes around for only a part of the sub-step: use the length then, by Pythagoras.
   const double along = std::max(0.0, length + h_ * side.dot(rate));
   const double across = rate.cross(side).squaredNorm();
   const double lengths = along + std::sqrt(along * along + h_ * h_ * across);

@@ -22,27 +22,27 @@ struct Placement {
   [[nodiscard]] Vec3 x_b() const { return axes_b * Vec3(1, 0, 0); }
   [[nodiscard]] Vec3 y_b() const { return axes_b * Vec3(0, 1, 0); }
   [[nodiscard]] Vec3 gap_rate() const { return velocity_at(twist_b, arm_b) - velocity_at(twist_a, arm_a); }
-  /// How the gap accelerates when both bodies go on as they move.
+  /// Acceleration of the gap if both bodies keep their velocities.
   [[nodiscard]] Vec3 gap_bend() const { return bend(twist_b, arm_b) - bend(twist_a, arm_a); }
-  /// How the gap along an axis that is fixed to a does.
+  /// The same along an axis that is fixed to a.
   [[nodiscard]] double bend_along(const Vec3& axis) const {
     const Vec3& spin = twist_a.angular;
     return axis.dot(gap_bend()) + 2 * spin.cross(axis).dot(gap_rate()) + spin.cross(spin.cross(axis)).dot(gap());
   }
-  /// Acceleration of what is carried around.
+  /// Centripetal acceleration of a point carried around.
   [[nodiscard]] static Vec3 bend(const Twist& twist, const Vec3& arm) {
     return twist.angular.cross(twist.angular.cross(arm));
   }
-  /// Of b's frame in a's.
+  /// The rotation of b's frame in a's.
   [[nodiscard]] Quat relative() const { return axes_a.conjugate() * axes_b; }
 };
 
-/// @param center_a, rotation_a  of a's center of mass and node; of the world: zero and the identity
+/// @param center_a, rotation_a  of a's center of mass and node; for the world: zero and the identity
 /// @param mass_center_a  a's center of mass on its node
 [[nodiscard]] Placement placement_of(const JointSettings& joint, const Vec3& center_a, const Quat& rotation_a,
                                      const Vec3& mass_center_a, const Vec3& center_b, const Quat& rotation_b,
                                      const Vec3& mass_center_b);
-/// Of a joint between bodies as they stand.
+/// For a joint between bodies in their present poses.
 [[nodiscard]] Placement placement_in(const state::Joint& joint, const std::vector<state::Body>& bodies);
 
 }  // namespace tweenfall::joints

@@ -79,7 +79,7 @@ void World::Implementation::gather_links() {
     const std::uint32_t b = joint.settings.b.index;
     const bool to_world = joint.settings.a == BodyId{};
     if (bodies[b].immovable() && (to_world || bodies[a].immovable())) {
-      // It does nothing, and knows nothing of what it did once its ends are let go.
+      // It does nothing, and must not remember an impulse once its ends are let go.
       joint.force.setZero();
       joint.torque.setZero();
       joint.kept.fill(0);

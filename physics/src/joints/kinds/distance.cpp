@@ -8,7 +8,7 @@ Coordinates coordinates_of(const DistanceJoint&, const state::Joint&, const Plac
   Coordinates coordinates;
   const Vec3 gap = at.gap();
   const double length = gap.norm();
-  // Where both ends are in one place any direction leads apart.
+  // If both ends are at the same place, any direction leads apart.
   coordinates.add(length, apart(at, length > 0 ? Vec3(gap / length) : at.x_a()));
   return coordinates;
 }

@@ -2,7 +2,7 @@
 
 namespace tweenfall::joints {
 
-/// The angles are sums of what the bodies have turned: nothing else tells whole turns of bodies that also move.
+/// The angles are sums of the turns of the bodies: nothing else counts whole turns of bodies that also move.
 Coordinates coordinates_of(const GearJoint&, const state::Joint& joint, const Placement& at) {
   Coordinates coordinates;
   coordinates.add(joint.angles[0], {Vec3::Zero(), -at.x_a(), Vec3::Zero(), Vec3::Zero()});

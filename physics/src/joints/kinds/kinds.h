@@ -1,12 +1,12 @@
 #pragma once
 
-/// What each kind of joint holds, bounds and drives, one file for each.
+/// What each kind of joint holds, bounds and drives, one file per kind.
 
 #include "joints/joint_rows.h"
 
 namespace tweenfall::joints {
 
-/// Positions of a joint's coordinates, and how each is moved.
+/// Positions of a joint's coordinates, and the direction in which each moves.
 struct Coordinates {
   int count = 0;
   std::array<double, 3> position{};
@@ -18,7 +18,7 @@ struct Coordinates {
   }
 };
 
-/// Coordinates of a joint whose frames lie so.
+/// Coordinates of a joint with this placement.
 [[nodiscard]] Coordinates coordinates_of(const BallJoint& kind, const state::Joint& joint, const Placement& at);
 [[nodiscard]] Coordinates coordinates_of(const HingeJoint& kind, const state::Joint& joint, const Placement& at);
 [[nodiscard]] Coordinates coordinates_of(const SliderJoint& kind, const state::Joint& joint, const Placement& at);
@@ -33,8 +33,8 @@ struct Coordinates {
 
 [[nodiscard]] Coordinates coordinates_of(const state::Joint& joint, const Placement& at);
 
-/// Writes the rows of a sub-step; always as many for one kind, in the same order. Notes in the joint what the next
-/// sub-step must know of this one.
+/// Writes the rows of a sub-step; for one kind always the same number, in the same order. Stores in the joint what the
+/// next sub-step must know of this one.
 void write_rows(const BallJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
 void write_rows(const HingeJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
 void write_rows(const SliderJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
@@ -47,14 +47,15 @@ void write_rows(const PulleyJoint& kind, state::Joint& joint, const Placement& a
 void write_rows(const GearJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
 void write_rows(const SpringJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
 
-/// A cone narrower than this is a hinge's business, rad.
+/// A cone narrower than this should be a hinge, rad.
 constexpr double narrowest_swing = 1e-3;
-/// Shares of the longer axis of an ellipse: with less, its ends are sharp, and blunted.
+/// Ratio of an ellipse's axes below which its ends are too sharp, and are cut off.
 constexpr double narrow_ellipse = 0.5;
-/// Rows of a `SwingTwistJoint`, after those of its point; each beside the one of the lower bound.
+/// Rows of a `SwingTwistJoint`, after those of its point. Bounds come in pairs, the lower first; a cone has an upper
+/// one.
 constexpr std::uint8_t row_of_cone = 4, row_of_end = 5, row_of_twist = 7;
 
-/// An angle within -pi to pi as the one nearest to the last, whole turns included.
+/// The value of an angle within -pi to pi that is nearest to the last one, whole turns included.
 [[nodiscard]] double unwrapped(double angle, double last);
 /// How far a rotation turns about the x axis: its twist, rad.
 [[nodiscard]] double twist_of(const Quat& rotation);

@@ -8,7 +8,7 @@ Coordinates coordinates_of(const SpringJoint&, const state::Joint& joint, const 
 
 void write_rows(const SpringJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   const Coordinates length = coordinates_of(kind, joint, at);
-  // An impulse stays what it was while its line turns.
+  // The impulse keeps its direction while its line turns.
   rows.keep_of_next(0, joint.side.dot(length.direction[0].linear_b));
   joint.side = length.direction[0].linear_b;
   rows.spring(length.direction[0], length.position[0] - kind.length, kind.stiffness, kind.damping);

@@ -19,7 +19,7 @@ struct Swing {
 Swing swing_of(const Quat& rotation) {
   Quat twist(rotation.w(), rotation.x(), 0, 0);
   const double length = twist.norm();
-  // Turned over by half a turn, any twist will do.
+  // After half a turn over, any twist will do.
   twist = length > 0 ? Quat(twist.w() / length, twist.x() / length, 0, 0) : Quat(1, 0, 0, 0);
   Swing swing;
   swing.rotation = rotation * twist.conjugate();
@@ -28,16 +28,16 @@ Swing swing_of(const Quat& rotation) {
   return swing;
 }
 
-/// The axis in a's frame along which an angular velocity changes a function of the swing whose gradient is given:
-/// the derivative of the exponential undone, and blind to the twist about x as b carries it.
+/// The axis in a's frame along which an angular velocity changes a function of the swing with this gradient: it
+/// inverts the derivative of the exponential, and is independent of the twist about x as b carries it.
 /// Source: Bullo and Murray, Proportional Derivative Control on the Euclidean Group, 1995 (dexp and its inverse).
 Vec3 axis_of(const Swing& swing, const Vec3& gradient) {
   const double angle = swing.vector.norm();
   const Vec3 carried = swing.rotation * Vec3(1, 0, 0);
-  // The swing's quaternion has the sine and the cosine of half of its angle.
+  // The swing's quaternion holds the sine and the cosine of half of its angle.
   const double sin = swing.rotation.vec().norm();
   const double cos = std::abs(swing.rotation.w());
-  // half cot(half), and what it leaves
+  // half cot(half), and the remainder
   const double cotangent = sin > 0 ? 0.5 * angle * cos / sin : 1;
   const double rest = angle > 1e-4 ? (1 - cotangent) / (angle * angle) : 1.0 / 12;
   // Transpose of the inverse of the left derivative: 1 + [s]/2 + rest [s]^2.
@@ -51,7 +51,7 @@ Vec3 axis_of(const Swing& swing, const Vec3& gradient) {
   return std::abs(carry) > 1e-9 ? Vec3(first - first.dot(carried) / carry * free) : first;
 }
 
-/// About which b twists: halfway between both x axes, as long as the twist is fast.
+/// The axis about which b twists: halfway between both x axes, as long as the twist is fast.
 Direction twist_direction(const Placement& at) {
   const Vec3 x_a = at.x_a();
   const Vec3 both = x_a + at.x_b();
@@ -64,7 +64,7 @@ void bound_swing(const SwingTwistJoint& kind, state::Joint& joint, const Placeme
                  JointRows& rows) {
   const double y = std::max(kind.swing_y, narrowest_swing);
   const double z = std::max(kind.swing_z, narrowest_swing);
-  // Half an angle is at most its tangent: most limbs need no angle to be seen well inside.
+  // Half an angle is at most its tangent: most limbs are seen to be well inside without computing the angle.
   const double inside = std::min(y, z) - rows.far();
   const double twist_part = relative.w() * relative.w() + relative.x() * relative.x();
   const double swing_part = relative.y() * relative.y() + relative.z() * relative.z();
@@ -82,7 +82,7 @@ void bound_swing(const SwingTwistJoint& kind, state::Joint& joint, const Placeme
   const double steepness = gradient.norm();
   if (steepness > 0) {
     const Vec3 side = gradient / steepness;
-    // The last impulse was on the side where the limb was then.
+    // The last impulse belongs to the side on which the limb was then.
     rows.keep_of_next(1, std::max(0.0, joint.side.dot(side)));
     joint.side = side;
     const Limits cone{-std::numeric_limits<double>::infinity(), 1 / steepness, kind.twist.hz, kind.twist.zeta};
@@ -90,7 +90,8 @@ void bound_swing(const SwingTwistJoint& kind, state::Joint& joint, const Placeme
   } else {
     rows.idle(2);
   }
-  // At the ends of a narrow ellipse one row turns from side to side and lets the limb slip past: they are blunted.
+  // At the ends of a narrow ellipse, a single row turns from side to side and lets the limb slip past: two more cut
+  // them off.
   const double most = std::max(y, z);
   if (std::min(y, z) < narrow_ellipse * most) {
     const Vec3 longer = Vec3::Unit(y > z ? 1 : 2);
@@ -126,7 +127,8 @@ void write_rows(const SwingTwistJoint& kind, state::Joint& joint, const Placemen
   bound_swing(kind, joint, at, relative, rows);
   bound_twist(kind, at, relative, rows);
   if (kind.toward) {
-    // Along b's own axes, which for a limb are nearly those of its inertia: the springs hardly act on each other.
+    // Along b's own axes, which for a limb are nearly those of its inertia, so that the springs hardly affect each
+    // other.
     const Vec3 off = log_map(kind.toward->conjugate() * relative);
     for (int i = 0; i < 3; ++i)
       rows.draw(about(at.axes_b * Vec3::Unit(i)), off[i], 0, kind.hz, kind.zeta, kind.max_torque);

@@ -4,8 +4,8 @@
 
 namespace tweenfall::joints {
 
-/// With the cross piece between them: a turned about its x axis by the first angle, then about b's y axis by the
-/// second.
+/// With a cross piece between the bodies: a's frame turns about its x axis by the first angle, then about b's y axis by
+/// the second.
 Coordinates coordinates_of(const UniversalJoint&, const state::Joint& joint, const Placement& at) {
   Coordinates coordinates;
   const Vec3 x = at.x_a();
