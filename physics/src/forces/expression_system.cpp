@@ -13,7 +13,7 @@ namespace {
 constexpr double most_on_the_way = 1e5;
 
 double steps_of(const ExpressionSystem& system) {
-  // A duration that is a whole number of steps but for rounding takes no step more.
+  // A duration that is a whole number of steps, up to rounding, takes no extra step.
   return std::max(1.0, std::ceil(system.duration / system.step - 1e-9));
 }
 
@@ -64,7 +64,7 @@ FirstOrderPath path_of(const ExpressionSystem& system, std::span<const double> s
   const auto steps = static_cast<std::size_t>(forces::steps_of(system));
   FirstOrderPath path;
   for (std::size_t k = 0;; ++k) {
-    // Counted, so that times do not drift from the steps'.
+    // Multiplied, so that times do not drift from those of the steps.
     path.times.push_back(static_cast<double>(k) * system.step);
     path.states.emplace_back(stepper.state().begin(), stepper.state().end());
     if (k == steps) return path;

@@ -68,7 +68,7 @@ FirstOrderPath first_order_path(const FirstOrder& rates, const std::vector<doubl
   path.states.reserve(count + 1);
   for (std::size_t i = 0; i <= count; ++i) {
     if (i > 0) stepper.step(dt);
-    // Not by adding up steps, so that the last time is what was asked for.
+    // Multiplied rather than added up, so that the last time is what was asked for.
     path.times.push_back(time + static_cast<double>(i) * dt);
     path.states.emplace_back(stepper.state().begin(), stepper.state().end());
   }

@@ -14,10 +14,10 @@ using state::Body;
 
 namespace {
 
-/// Beyond this a turn since the start of the step has no rate that is good for anything, rad.
+/// Beyond this, a turn since the start of the step has no useful rate, rad.
 constexpr double most_turn = 3;
 
-/// Rate of a rotation vector, world axes, of what turns like this.
+/// Rate of a rotation vector, world axes, for a body with this turn and angular velocity.
 Vec3 turn_rate(const Vec3& turn, const Vec3& angular) {
   if (turn.cross(angular) == Vec3::Zero() || !(turn.squaredNorm() < most_turn * most_turn)) return angular;
   return right_jacobian_inverse(-turn) * angular;
@@ -37,7 +37,7 @@ void put(const Change& change, std::span<double> state, std::size_t body) {
     for (int i = 0; i < 3; ++i) *at++ = (*part)[i];
 }
 
-/// What an integrator does not move: on its path, or at rest.
+/// A body that the integrator does not move: on its path, or at rest.
 Glimpse led(const Body& body, double after, double dt) {
   if (!body.immovable()) return {body.center, Vec3::Zero(), Vec3::Zero(), body.motion.pose.rotation};
   const step::KeyedCourse course = step::keyed_course(body, dt);
@@ -120,7 +120,7 @@ void Flight::tie(const Acting& acting, std::span<const std::uint32_t> watched, c
   }
 }
 
-/// Within the step, at the states that the integrator asks about.
+/// Within the step, at the states that the integrator evaluates.
 class Flight::Amid : public Moment {
  public:
   Amid(const Flight& flight, const Acting& acting, double after)

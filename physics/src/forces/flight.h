@@ -9,7 +9,7 @@
 
 namespace tweenfall::forces {
 
-/// What acts between contacts in a step.
+/// What acts in a step besides contacts.
 struct Acting {
   const std::vector<state::Body>& bodies;
   const std::vector<NumberedForce>& forces;
@@ -18,7 +18,7 @@ struct Acting {
   double dt;
 };
 
-/// How a body goes on, apart from contacts: per second, or altogether. A state has twelve numbers for each.
+/// How a body changes, without contacts: per second, or altogether. A state has twelve numbers per body.
 struct Change {
   Vec3 center{0, 0, 0};    ///< of its center of mass
   Vec3 linear{0, 0, 0};    ///< of its velocity
@@ -26,11 +26,11 @@ struct Change {
   Vec3 momentum{0, 0, 0};  ///< of its angular momentum, world axes
 };
 
-/// Bodies that go through a step by an integrator which asks for forces at states of its own choosing.
+/// Moves bodies through a step by an integrator that evaluates forces at states of its own choosing.
 class Flight {
  public:
-  /// Finds how they would go if nothing touched them.
-  /// @param loads  has the springiness; written: the mean acceleration and torque, for those that something touches
+  /// Finds how they would move if nothing touched them.
+  /// @param loads  holds the springiness; written: the mean acceleration and torque, for bodies that something touches
   void gather(const Acting& acting, std::span<const std::uint32_t> watched, Integrate* integrate,
               std::vector<Load>& loads);
   /// Moves a body that nothing touched.
@@ -44,12 +44,12 @@ class Flight {
     Vec3 momentum;  ///< angular, world axes
   };
 
-  /// Gravity, all forces and what the caller applied, of all of them at these states.
+  /// Rates of all bodies at these states, from gravity, all forces and what the caller applied.
   void find_rates(const Acting& acting, std::span<const std::uint32_t> watched, const std::vector<Load>& loads,
                   double after, std::span<const double> since, std::span<double> rates);
   class Amid;
   void add_spring(const Acting& acting, const Spring& spring, const Moment& moment);
-  /// Which bodies act on each other.
+  /// Finds which bodies act on each other.
   void tie(const Acting& acting, std::span<const std::uint32_t> watched, const std::vector<Load>& loads);
 
   std::vector<std::uint32_t> slots_;  ///< by body

@@ -30,7 +30,7 @@ Glimpse ahead(const Body& body, const Load& load, double dt) {
           body.twist.linear + load.acceleration * dt, angular, exp_map(angular * dt) * body.motion.pose.rotation};
 }
 
-/// Bodies that are worth a part of their own.
+/// Number of bodies that are worth a task of their own.
 constexpr std::size_t worth_a_part = 256;
 
 /// Above this a spring would ring through the step, and above 4 it would grow.
@@ -49,7 +49,7 @@ void add_springiness(const std::vector<Body>& bodies, const Spring& spring, doub
   if (b && moves(*b)) loads[spring.b.index].springiness += stiffness * felt;
 }
 
-/// The start of a step, or its end, where bodies would be without what changes in it.
+/// The start of a step, or its end, with bodies where they would be if loads did not change during the step.
 class EndOfStep : public Moment {
  public:
   EndOfStep(const std::vector<Body>& all, const WorldSettings& settings, double start, bool later, double dt,
@@ -66,7 +66,7 @@ class EndOfStep : public Moment {
   bool later_;
 };
 
-/// @param torque_share  of the torque, which has no two ends
+/// @param torque_share  share of the torque that counts, since torques are not split between both ends of the step
 void put(const Effect& effect, double mass, bool at_end, double torque_share, Load& load) {
   if (effect.force != Vec3::Zero()) (at_end ? load.end_acceleration : load.acceleration) += effect.force / mass;
   if (effect.torque != Vec3::Zero()) load.torque += torque_share * effect.torque;
@@ -92,7 +92,7 @@ std::optional<Spring> spring_between(const Force& force, double strength, const 
   std::optional<Spring> spring;
   if (const auto* elastic = std::get_if<Spring>(&force)) spring = spring_of(*elastic, strength);
   if (const auto* damper = std::get_if<Damper>(&force)) spring = spring_of(*damper, strength);
-  // Where an end was removed it hangs loose.
+  // If a body at one end was removed, the spring hangs loose.
   if (spring && (!find_body(bodies, spring->a) || (spring->b != BodyId{} && !find_body(bodies, spring->b))))
     spring.reset();
   return spring;
@@ -149,7 +149,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     load.drag = body.makeup->linear_damping;
     load.angular_damping = body.makeup->angular_damping;
   });
-  // A spring is what it is halfway through the step, but where it is explicit, and asked for at both ends.
+  // A spring has its strength at the middle of the step, unless it is explicit and evaluated at both ends.
   const auto spring_at = [&](const NumberedForce& entry, double when, Side side) {
     return spring_between(entry.force, entry.settings.strength.at(when, side), bodies);
   };

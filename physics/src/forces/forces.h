@@ -21,28 +21,28 @@ struct NumberedForce {
 };
 
 /// Loads of the watched bodies for a step of length `dt` that starts at `time`; `loads` becomes as long as `bodies`.
-/// Springs that are too stiff for the step go into `stiff` and into no load. An integrator that asks for forces where
-/// it wants them leaves in `flight` where bodies get that nothing touches.
+/// Springs that are too stiff for the step go into `stiff` and into no load. An integrator that evaluates forces at
+/// states of its own writes to `flight` where bodies get that nothing touches.
 void gather_loads(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> watched,
                   const std::vector<NumberedForce>& forces, const WorldSettings& settings, double time, double dt,
                   const threads::Workers& workers, std::vector<Load>& loads, std::vector<step::SpringRow>& stiff,
                   Flight& flight);
 
-/// By the springiness in the loads: whether a spring is a row among the contacts instead.
+/// Whether a spring is too stiff for the step, by the springiness in the loads, and becomes a row among the contacts.
 [[nodiscard]] bool too_stiff(const Spring& spring, const std::vector<state::Body>& bodies,
                              const std::vector<Load>& loads);
 
-/// The body of a handle; null when it is gone, or for the world itself.
+/// The body of a handle; null if it was removed, or for the world itself.
 [[nodiscard]] const state::Body* find_body(const std::vector<state::Body>& bodies, const BodyId& id);
 
-/// A force between two points at such a strength, with both its ends there; none for all other forces.
+/// A force between two points at this strength, if both its ends exist; empty for all other forces.
 [[nodiscard]] std::optional<Spring> spring_between(const Force& force, double strength,
                                                    const std::vector<state::Body>& bodies);
 [[nodiscard]] Effect effect_of(const Force& force, double strength, const Subject& subject, const Moment& moment);
 [[nodiscard]] Named named(const Force& force);
 
-/// Calls `see(index)` for each body that a force acts on by itself and that is there, in order.
-/// @param all  indices of bodies that are there, in order: whom a force without a list of its own acts on
+/// Calls `see(index)` for each existing body that a force acts on by itself, in order.
+/// @param all  indices of existing bodies, in order: a force without a list of its own acts on all of them
 template <class Indices, class See>
 void each_acted(const NumberedForce& entry, const std::vector<state::Body>& bodies, const Indices& all,
                 const See& see) {
@@ -73,7 +73,7 @@ void each_tie(const NumberedForce& entry, const std::vector<state::Body>& bodies
   }
 }
 
-/// Whether a force may be another from one time to the other though its bodies rest.
+/// Whether a force may change from one time to the other although its bodies rest.
 [[nodiscard]] bool stirs(const NumberedForce& entry, double from, double to);
 
 }  // namespace tweenfall::forces

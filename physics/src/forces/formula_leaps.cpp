@@ -9,7 +9,7 @@ namespace tweenfall::forces {
 
 namespace {
 
-/// The time at which a formula that leaps in between does so; infinity where it only goes there fast.
+/// The time of a jump in between; infinity if the formula only changes fast.
 double leap_in(const Expression& formula, double from, double to) {
   const auto before = [&](double time) { return formula.sample(time, Side::in).value; };
   const double first = formula.sample(from, Side::out).value, whole = std::abs(before(to) - first);
@@ -58,7 +58,7 @@ double next_leap(const Expression& formula, double from, double to) {
     const double end = i < looks ? from + (to - from) * i / looks : to;
     if (leaps(formula, begin, end))
       if (const double leap = leap_in(formula, begin, end); leap > from && leap <= to) return leap;
-    // One that falls on the look itself.
+    // A jump exactly at the sample.
     const double here = formula.sample(end, Side::in).value, there = formula.sample(end, Side::out).value;
     if (here != there && std::isfinite(here) && std::isfinite(there)) return end;
     begin = end;

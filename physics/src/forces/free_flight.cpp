@@ -16,15 +16,15 @@ using state::Body;
 namespace {
 
 /// Inverse of the derivative of the exponential, for rotation vectors in the body's axes, cut after the second bracket.
-/// Beyond a radian the series says nothing: then the plain midpoint is left, which turns by no more than the spin can.
+/// Beyond a radian the series is useless: then the plain midpoint remains, which turns by no more than the spin can.
 Vec3 inverse_derivative(const Vec3& turn, const Vec3& angular) {
   if (turn.squaredNorm() > 1) return angular;
   const Vec3 bracket = turn.cross(angular);
   return angular + 0.5 * bracket + turn.cross(bracket) / 12;
 }
 
-/// A body that turns, told in its own axes: there the momentum about the axis of a needle changes by what its other
-/// moments differ, and by no error of where the needle points.
+/// A turning body in its own axes: there, the momentum about the axis of a needle changes by the difference of its
+/// other moments, and not by errors of where the needle points.
 struct Tumble {
   Vec3 momentum;
   Vec3 turn;  ///< since the start of a piece
@@ -36,11 +36,11 @@ class Tumbling {
 
   [[nodiscard]] Vec3 angular(const Vec3& momentum) const { return body_.inverse_inertia() * momentum; }
 
-  /// Through `h` seconds from a rotation.
+  /// Through `h` seconds, starting from a rotation.
   [[nodiscard]] Tumble through(double h, const Quat& rotation, const Vec3& momentum) const {
     const Tumble start{momentum, Vec3::Zero()};
     const Vec3 even = h * angular(momentum);
-    // Of what turns by more than a radian no series tells the way: it turns on as it does, which makes nothing longer.
+    // Beyond a radian no series gives the path: the body keeps turning at the same rate, which makes nothing longer.
     if (!(even.squaredNorm() < 1)) return {exp_map(-even) * momentum + h * pushed(rotation), even};
     const Tumble k1 = rate(rotation, start), k2 = rate(rotation, after(start, 0.5 * h, k1));
     const Tumble k3 = rate(rotation, after(start, 0.5 * h, k2)), k4 = rate(rotation, after(start, h, k3));
@@ -63,28 +63,28 @@ class Tumbling {
   bool steady_;
 };
 
-/// Of a turn that is followed, at most.
+/// Greatest number of pieces of a turn that is followed.
 constexpr double most_pieces = 64;
 
-/// A momentum, less as much of it as would have more energy than that.
+/// A momentum, reduced so that its energy is at most `energy`.
 Vec3 within_energy(const Tumbling& tumbling, double energy, const Vec3& momentum) {
   const double now = 0.5 * tumbling.angular(momentum).dot(momentum);
   return now > energy * (1 + 1e-9) ? Vec3(momentum * std::sqrt(energy / now)) : momentum;
 }
 
-/// Turns a momentum in the body's axes by the little that brings its energy to what it was. The gradient of the energy
+/// Turns a momentum in the body's axes by the small angle that restores its energy. The gradient of the energy
 /// over such turns is L x w.
 Vec3 with_energy(const Tumbling& tumbling, double energy, const Vec3& momentum) {
   const Vec3 angular = tumbling.angular(momentum);
   const Vec3 gradient = momentum.cross(angular);
   const double off = energy - 0.5 * angular.dot(momentum);
   if (std::abs(off) < 1e-3 * gradient.norm()) return exp_map(gradient * (off / gradient.squaredNorm())) * momentum;
-  // About a principal axis no turn changes the energy, and none is needed. What turns too fast to be followed must not
-  // grow: it slows down instead.
+  // About a principal axis no turn changes the energy, and none is needed. A body that turns too fast to be followed
+  // must not gain energy: it slows down instead.
   return within_energy(tumbling, energy, momentum);
 }
 
-/// The axis about which a body with this inertia is a top, with the same moment about all that are across it.
+/// The axis of a symmetric top: the moments about all axes perpendicular to it are equal.
 std::optional<int> axis_of_top(const Mat3& inertia) {
   if (inertia(0, 1) != 0 || inertia(0, 2) != 0 || inertia(1, 2) != 0) return std::nullopt;
   for (int axis = 0; axis < 3; ++axis)
@@ -92,7 +92,7 @@ std::optional<int> axis_of_top(const Mat3& inertia) {
   return std::nullopt;
 }
 
-/// A top that no torque turns: it spins about its axis, which goes around the momentum evenly.
+/// A top without torque: it spins about its axis, which goes around the momentum evenly.
 /// Source: Goldstein, Poole, Safko, Classical Mechanics, 2002, section 5.6.
 Spin turned_top(const Body& body, int axis, const Quat& rotation, const Vec3& momentum, double dt) {
   const Mat3& inertia = body.mass().inertia;
@@ -140,8 +140,8 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
       return turned_top(body, *axis, start.rotation, momentum, dt);
   const double energy = 0.5 * first.dot(momentum), length = momentum.norm();
   const Vec3 end_momentum = start.rotation * momentum + dt * load.torque;  // in the world's axes
-  // A tenth of a radian per piece keeps the energy of a tumbling body to parts in a billion. Where the most pieces
-  // would turn by more than a radian each, they tell no more than one does.
+  // A tenth of a radian per piece keeps the energy of a tumbling body to parts in a billion. If even the most pieces
+  // would turn by more than a radian each, they are no better than one.
   const double angle =
       (first.norm() + 0.5 * dt * tumbling.angular(start.rotation.conjugate() * load.torque).norm()) * dt;
   const int pieces = angle < most_pieces ? static_cast<int>(std::clamp(std::ceil(angle / 0.1), 1.0, most_pieces)) : 1;
@@ -154,8 +154,8 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
     rotation.normalize();
   }
   if (steady) momentum = with_energy(tumbling, energy, momentum);
-  // What the world's axes hold of the momentum is known, and the body lies so that it is there; but where next to
-  // nothing is left of it, or the body turns too fast to be followed, it says nothing of how the body lies.
+  // The momentum in the world's axes is known, and the body is turned to match it; but if almost nothing is left of the
+  // momentum, or the body turns too fast to be followed, it does not determine how the body is turned.
   const Vec3 reached = rotation * momentum;
   const double reach = reached.norm(), end = end_momentum.norm();
   if (end > 1e-3 * length && reached.dot(end_momentum) > 0.5 * reach * end) {
@@ -182,8 +182,8 @@ void fly(Body& body, const Load& load, Integrator integrator, double dt) {
   if (integrator == Integrator::semi_implicit_euler) {
     body.center += body.twist.linear * dt;
   } else if (load.drag > 0) {
-    // Implicit in the drag: the sum of all displacements is then exactly speed over drag. What drifts with a medium
-    // drifts evenly.
+    // Implicit in the drag: the sum of all displacements is then exactly speed over drag. Bodies that drift with a
+    // medium drift evenly.
     const Vec3 driven = load.acceleration - load.carried;
     body.center += body.twist.linear * dt - driven * (0.5 * dt * dt / (1 + load.drag * dt));
   } else {

@@ -4,18 +4,18 @@
 
 namespace tweenfall::forces {
 
-/// What acts on one body during a step, apart from contacts.
+/// What acts on one body during a step, besides contacts.
 struct Load {
   Vec3 acceleration{0, 0, 0};      ///< at the start of the step, m/s^2
-  Vec3 end_acceleration{0, 0, 0};  ///< where the body would be at its end
-  Vec3 carried{0, 0, 0};           ///< of both, what comes of the drag of media that move
+  Vec3 end_acceleration{0, 0, 0};  ///< the same where the body would be at its end
+  Vec3 carried{0, 0, 0};           ///< the part of both that comes from the drag of moving media
   Vec3 torque{0, 0, 0};            ///< N m
   double drag = 0;                 ///< 1/s, taken implicitly
   double angular_drag = 0;         ///< kg m^2/s, taken implicitly
   double angular_damping = 0;      ///< 1/s, taken implicitly
-  double springiness = 0;          ///< of the springs on it: k h^2 + c h over the mass that their ends feel
-  bool saturated = false;          ///< so that the drive is at its limit
-  Twist pulled;                    ///< of a driven body: with which it gets through the step if nothing touches it
+  double springiness = 0;          ///< of the springs on it: k h^2 + c h divided by the mass that their ends feel
+  bool saturated = false;          ///< its drive is at its limit
+  Twist pulled;  ///< of a driven body: the twist with which it moves through the step if nothing touches it
 };
 
 struct Spin {
@@ -23,13 +23,13 @@ struct Spin {
   Vec3 angular;  ///< rad/s, world axes
 };
 
-/// Turns a body that nothing touches, to fourth order: momentum and turn are carried in its own axes, and its angular
-/// momentum in the world changes by torque times time and by nothing else.
+/// Turns a body that nothing touches, to fourth order: momentum and turn are computed in its own axes, and its angular
+/// momentum in the world changes by exactly torque times time.
 /// Source: Munthe-Kaas, High order Runge-Kutta methods on manifolds, Applied Numerical Mathematics 29, 1999.
 [[nodiscard]] Spin turned(const state::Body& body, const Spin& start, const Load& load, double dt);
 
-/// An angular velocity, less as much of it as would have more than `most` joules: inertia in world axes turns with its
-/// body, so that a spin which is kept through a great turn may gain energy.
+/// An angular velocity, reduced so that its energy is at most `most` joules: inertia in world axes turns with its
+/// body, so that a spin which is kept through a large turn may gain energy.
 [[nodiscard]] Vec3 bounded_spin(const Mat3& inertia, double most, const Vec3& angular);
 
 /// Linear velocity after `dt` under the load alone.

@@ -35,7 +35,7 @@ class Asked {
   bool resistance_;
 };
 
-/// The greatest column of the derivative of what `of` makes of a small change along each axis.
+/// The greatest column of the derivative of `of`, from a small change along each axis.
 template <class Of>
 double steepest(double change, const Of& of) {
   double most = 0;
@@ -50,7 +50,7 @@ double steepest(double change, const Of& of) {
 
 Pace pace_of(const NumberedForce& force, const state::Body& body, const Vec3& linear, const Moment& moment,
              bool resistance) {
-  constexpr double small = 1e-4;  // of what there is
+  constexpr double small = 1e-4;  // relative to the value
   const Asked asked(force, body, moment, resistance);
   Pace pace;
   pace.damping = steepest(small * std::max(1.0, linear.norm()),

@@ -4,18 +4,18 @@
 
 namespace tweenfall::forces {
 
-/// How fast what a force does to a body changes with the body's own motion: what steps have to follow.
+/// How fast the effect of a force on a body changes with the body's own motion, which steps have to follow.
 struct Pace {
-  double damping = 0;  ///< by its velocity or its spin, 1/s
-  double swing = 0;    ///< by its place, rad/s
+  double damping = 0;  ///< with its velocity or its spin, 1/s
+  double swing = 0;    ///< with its position, rad/s
 };
 
-/// @param linear  velocity for which it is asked, m/s
-/// @param resistance  whether what resists counts: not for integrators that take it as it is at the end of the step
+/// @param linear  velocity at which it is evaluated, m/s
+/// @param resistance  whether resistance counts: not for integrators that take it as it is at the end of the step
 [[nodiscard]] Pace pace_of(const NumberedForce& force, const state::Body& body, const Vec3& linear,
                            const Moment& moment, bool resistance);
 
-/// Speed at which what resists in a force bears the weight of a body that falls, m/s; infinity beyond a million.
+/// Speed at which the resistance in a force carries the weight of a falling body, m/s; infinity beyond a million.
 [[nodiscard]] double falling_speed(const NumberedForce& force, const state::Body& body, const Moment& moment);
 
 }  // namespace tweenfall::forces

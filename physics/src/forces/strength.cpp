@@ -14,7 +14,7 @@ namespace tweenfall {
 namespace forces {
 namespace {
 
-/// Times nearer to a key than this, s, are the key's: what is summed up from steps is a little off.
+/// Times nearer to a key than this, s, count as the key's: sums of steps are slightly off.
 constexpr double at_a_key = 1e-9;
 
 bool has_eases(const std::vector<Span<double>>& spans) {
@@ -41,7 +41,7 @@ Span<double> rest(double start, double value) {
   return span;
 }
 
-/// The curve made of its spans alone, as it is when it was saved: where it jumps at its first or last key it rests for
+/// The curve made of its spans alone, as after saving: where it jumps at its first or last key, it rests for
 /// a second beyond it.
 Curve<double> of_spans(const Curve<double>& curve) {
   std::vector<Span<double>> spans = curve.spans();
@@ -103,7 +103,7 @@ bool Strength::changes(double from, double to) const noexcept {
   if (!curve_) return false;
   const double value = at(from, Side::in);
   const std::span<const double> knots = curve_->knots();
-  // Of a polynomial of fifth degree that is the same at as many places and more, nothing else is left.
+  // A polynomial of fifth degree with the same value at more than five places is constant.
   constexpr int looks = 6;
   for (int i = 0; i <= looks; ++i) {
     const double time = from + (to - from) * i / looks;

@@ -4,7 +4,7 @@
 
 namespace tweenfall::forces {
 
-/// First order: on by what there will be at the end. What swings loses energy, and nothing is too stiff.
+/// First order: uses the rates at the end. A swing loses energy, and nothing is too stiff.
 void backward_euler(const Flow& flow, double dt, Room& room, std::span<double> means) {
   room.resize(1);
   room[0].assign(means.size(), 0.0);

@@ -11,20 +11,20 @@ namespace tweenfall::forces {
 
 namespace {
 
-/// Blocks that are tied together and solved for together; more of them are solved for one by one, over and over.
+/// Greatest number of tied blocks that are solved together; if there are more, they are solved one by one, repeatedly.
 constexpr std::size_t most_together = 32;
-/// Steps toward the end, at most: of those that are solved for together, and one by one.
+/// Most steps toward the end: if blocks are solved together, and if one by one.
 constexpr int most_newton = 40, most_over_and_over = 300;
-/// As often the slopes are found anew.
+/// How often slopes are computed again.
 constexpr int most_slopes = 12;
-/// Parts of a state that are rounding.
+/// Rounding of a state, relative.
 constexpr double rounding = 1e-15;
-/// Steps in which nothing gets better, so that nothing will.
+/// Number of steps without improvement after which none is expected.
 constexpr int most_idle_together = 3, most_idle_apart = 24;
-/// A step that makes things worse is halved so often.
+/// How often a step that makes things worse is halved.
 constexpr int most_halvings = 12;
 
-/// A square system, by Gauss's elimination with partial pivoting.
+/// A square system, solved by Gaussian elimination with partial pivoting.
 class Elimination {
  public:
   std::vector<double> entries;  ///< row by row; replaced by the factors
@@ -47,7 +47,7 @@ class Elimination {
       }
     }
   }
-  /// In place; what the system tells nothing of becomes 0.
+  /// In place; unknowns that the system does not determine become 0.
   void solve(std::span<double> values) const {
     for (std::size_t row = 0; row < size_; ++row) std::swap(values[row], values[rows_[row]]);
     for (std::size_t row = 0; row < size_; ++row)
@@ -66,19 +66,19 @@ class Elimination {
   std::vector<std::size_t> rows_;
 };
 
-/// Blocks that are solved for together.
+/// Blocks that are solved together.
 struct Unit {
   std::vector<std::size_t> blocks;
   Elimination slopes;
 };
 
-/// Blocks that are tied together: one unit, or each of them one.
+/// Blocks that are tied: together one unit, or each a unit of its own.
 struct Tied {
   std::vector<Unit> units;
   std::vector<std::size_t> blocks;
   small::Extrapolation extrapolation;
   std::vector<double> from, to;
-  double before = std::numeric_limits<double>::infinity();  ///< how far off it was before the last step
+  double before = std::numeric_limits<double>::infinity();  ///< the error before the last step
   double least = before;
   int idle = 0, halvings = 0;
   bool done = false;
@@ -121,15 +121,15 @@ class Meeting {
   }
 
  private:
-  /// By how much the end misses what leads there.
+  /// The difference between the mean rates that follow from the end and those that lead there.
   void find_off(std::span<const double> rates, std::vector<double>& off) {
     for (std::size_t i = 0; i < rates.size(); ++i) since_[i] = dt_ * rates[i];
     flow_.rates(dt_, since_, off);
     for (std::size_t i = 0; i < rates.size(); ++i) off[i] = known_[i] + share_ * off[i] - rates[i];
   }
 
-  /// Of the numbers of each unit, by differences: exact where forces are linear. The blocks of a unit take turns, and
-  /// so do units that act on each other.
+  /// Derivatives by the numbers of each unit, by differences: exact if forces are linear. The blocks of a unit take
+  /// turns, and so do units that act on each other.
   void find_slopes() {
     const std::size_t n = flow_.block;
     std::vector<double> there(now_.size()), aside(now_.size());
@@ -140,7 +140,7 @@ class Meeting {
         there = now_;
         each_in_turn(turn, [&](Unit& unit, std::size_t place) {
           const std::size_t i = unit.blocks[place] * n + column;
-          // So much that it is more than rounding, and so little that curves look straight.
+          // Large enough to exceed rounding, and small enough that curves look straight.
           there[i] += 1e-7 * flow_.sizes[i] / std::abs(dt_) + 1e-4 * std::abs(now_[i]) + 1e-9;
           left = true;
         });
@@ -189,7 +189,7 @@ class Meeting {
         for (std::size_t beside = first; beside < first + flow_.kind; ++beside)
           size = std::max(size, std::abs(dt_ * (now_[at + beside % n] + change[beside])));
         size += flow_.sizes[i];
-        // Beyond all numbers, or none, counts as much.
+        // Infinite, or not a number: both count alike.
         const double share = change[k] == 0 ? 0 : std::abs(dt_ * change[k]) / size;
         most = share < 1e300 ? std::max(most, share) : 1e300;
         tied.from.push_back(now_[i]);
@@ -199,7 +199,7 @@ class Meeting {
     const bool together = tied.together();
     const int bored = together ? most_idle_together : most_idle_apart;
     if (together && most > tied.before && tied.halvings < most_halvings) {
-      // It went too far.
+      // The step was too long.
       ++tied.halvings;
       put(tied, [&](std::size_t k) { return 0.5 * (now_at(tied, k) + best_at(tied, k)); });
       return;

@@ -4,7 +4,7 @@
 
 namespace tweenfall::forces {
 
-/// Second order: by the mean of what there is at the start and will be at the end. What swings on a linear spring keeps
+/// Second order: uses the mean of the rates at the start and at the end. A swing on a linear spring keeps
 /// its energy, and nothing is too stiff.
 void implicit_trapezoid(const Flow& flow, double dt, Room& room, std::span<double> means) {
   room.resize(2);

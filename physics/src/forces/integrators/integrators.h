@@ -9,22 +9,22 @@
 
 namespace tweenfall::forces {
 
-/// Rates of change of all numbers of a state together, at any states asked for: those in which they are `after` seconds
-/// into the step, having changed by `since` since its start.
+/// Rates of change of all numbers of a state together, at any state: `after` seconds into the step, with
+/// the state changed by `since` since its start.
 using Rates = std::function<void(double after, std::span<const double> since, std::span<double> rates)>;
 
-/// A state that changes by x' = f(x, t), in blocks of so many numbers, one for each body.
+/// A state that changes by x' = f(x, t), in blocks of equal size, one per body.
 struct Flow {
   Rates rates;
   std::size_t block = 1;                 ///< numbers of one body
-  std::size_t kind = 1;                  ///< numbers that make a vector
-  std::span<const std::uint8_t> places;  ///< by number of a block: 1 for a place, 0 for a speed
-  std::span<const double> sizes;         ///< by number: how great it is at the start, or the vector that it is of
-  std::span<const std::uint32_t> ties;   ///< by block: one that it is tied to by any way, for all of them the same
-  std::span<const std::uint32_t> turns;  ///< by block: of two that act on each other each has another
+  std::size_t kind = 1;                  ///< numbers that form a vector
+  std::span<const std::uint8_t> places;  ///< by number of a block: 1 for a position, 0 for a velocity
+  std::span<const double> sizes;         ///< by number: its magnitude at the start, or that of the vector it belongs to
+  std::span<const std::uint32_t> ties;  ///< by block: one that it is tied to, directly or not, the same for all of them
+  std::span<const std::uint32_t> turns;  ///< by block: two that act on each other have different turns
 };
 
-/// Room that an integrator keeps from step to step: one list of all numbers for each thing that it remembers of them.
+/// Memory that an integrator keeps from step to step: one list over all numbers for each quantity it remembers.
 using Room = std::vector<std::vector<double>>;
 
 /// An integrator: the mean rates of change over a step.
@@ -34,16 +34,16 @@ using Integrate = void(const Flow& flow, double dt, Room& room, std::span<double
 // One file each
 Integrate explicit_euler, semi_implicit_euler, midpoint, trapezoid, rk4, verlet, backward_euler, implicit_trapezoid;
 
-/// The one that takes any flow by the name; that of the usual one is Verlet's.
+/// The function for any flow; for the default integrator it is Verlet's.
 [[nodiscard]] Integrate* integrator_of(Integrator integrator);
-/// The one that asks for forces at states of its own choosing; null for those that know them from the start of the step
-/// on.
+/// The function that evaluates forces at states of its own choosing; null for integrators that know them from the start
+/// of the step.
 [[nodiscard]] Integrate* asking(Integrator integrator);
 /// Whether it takes springs of any stiffness.
 [[nodiscard]] bool implicit(Integrator integrator);
 [[nodiscard]] bool exists(Integrator integrator);
 
-/// By how much the state has changed, `share` of a rate long.
+/// The change of the state after `share` seconds at these rates.
 void advance(std::span<double> since, double share, std::span<const double> rates);
 
 }  // namespace tweenfall::forces

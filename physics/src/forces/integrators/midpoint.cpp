@@ -2,7 +2,7 @@
 
 namespace tweenfall::forces {
 
-/// Second order: by what there is in the middle of the step.
+/// Second order: uses the rates in the middle of the step.
 void midpoint(const Flow& flow, double dt, Room& room, std::span<double> means) {
   constexpr Tableau<2> tableau{{{{0, 0}, {0.5, 0}}}, {0, 1}};
   runge_kutta(tableau, flow, dt, room, means);

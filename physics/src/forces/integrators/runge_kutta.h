@@ -7,7 +7,7 @@
 
 namespace tweenfall::forces {
 
-/// Of an explicit method: row i of `parts` has the parts of the rates 0..i-1 that lead to stage i.
+/// An explicit method: row i of `parts` has the coefficients of the rates 0..i-1 that lead to stage i.
 template <std::size_t Stages>
 struct Tableau {
   std::array<std::array<double, Stages>, Stages> parts{};

@@ -4,8 +4,8 @@
 
 namespace tweenfall::forces {
 
-/// First order: speeds go on by what there was at the start, places by the speeds that come of it. What swings keeps
-/// its energy but for a ripple. Known as the symplectic Euler method.
+/// First order: velocities use the rates at the start, positions the resulting velocities. A swing keeps
+/// its energy up to a ripple. Known as the symplectic Euler method.
 /// Source: Hairer, Lubich and Wanner, Geometric Numerical Integration, 2006, I.1.2.
 void semi_implicit_euler(const Flow& flow, double dt, Room& room, std::span<double> means) {
   room.resize(2);

@@ -2,7 +2,7 @@
 
 namespace tweenfall::forces {
 
-/// Second order: by the mean of what there is at the start, and would be at the end. Known as Heun's method.
+/// Second order: uses the mean of the rates at the start and those predicted for the end. Known as Heun's method.
 void trapezoid(const Flow& flow, double dt, Room& room, std::span<double> means) {
   constexpr Tableau<2> tableau{{{{0, 0}, {1, 0}}}, {1, 1}, 2};
   runge_kutta(tableau, flow, dt, room, means);

@@ -4,9 +4,9 @@
 
 namespace tweenfall::forces {
 
-/// Second order: places go on by the speeds halfway, speeds by the mean of the forces at both ends. Where forces depend
-/// on places alone this is velocity Verlet, which keeps the energy of what swings but for a ripple; where they depend
-/// on speeds too they are asked for at the speed that the start tells of. Turns go by the rates halfway.
+/// Second order: positions use the velocities halfway, velocities the mean of the forces at both ends. If forces depend
+/// only on positions, this is velocity Verlet, which keeps the energy of a swing up to a ripple; if they also depend
+/// on velocities, they are evaluated at the velocity predicted from the start. Turns use the rates halfway.
 /// Source: Swope and others, A computer simulation method for the calculation of equilibrium constants, Journal of
 /// Chemical Physics 76, 1982; Hairer, Lubich and Wanner, Geometric Numerical Integration, 2006, I.1.4.
 void verlet(const Flow& flow, double dt, Room& room, std::span<double> means) {

@@ -10,7 +10,7 @@ namespace tweenfall::forces {
 
 namespace {
 
-/// From the body to the point that draws it; nothing where that was on a body that is gone.
+/// From the body to the attracting point; empty if that was on a body that was removed.
 std::optional<Vec3> way_to(const Attractor& kind, const Subject& subject, const Moment& moment) {
   if (kind.of == BodyId{}) return Vec3(kind.at - subject.at.center);
   const state::Body* source = find_body(moment.bodies, kind.of);
@@ -39,7 +39,7 @@ std::optional<double> energy_of(const Attractor& kind, double strength, const Su
   if (!way) return 0;
   const double square = way->squaredNorm() + kind.softening * kind.softening;
   const double of_all = amount(kind, strength, subject);
-  // It is 0 at 1 m for a power of 1, and else at infinity or at the point.
+  // For a power of 1 the energy is 0 at 1 m, otherwise at infinity or at the point.
   if (kind.power == 1) return square > 0 ? of_all * 0.5 * elementary::log(square) : 0;
   return of_all * fall_off(square, kind.power - 2) / (1 - kind.power);
 }

@@ -10,7 +10,7 @@ struct Afloat {
   Vec3 normal;
   double level;
   shapes::Submerged part;
-  Vec3 arm;  ///< from the center of mass to the middle of the part that is under, world axes
+  Vec3 arm;  ///< from the center of mass to the center of the submerged part, world axes
 };
 
 Afloat afloat(const Buoyancy& kind, const Subject& subject) {
@@ -21,7 +21,7 @@ Afloat afloat(const Buoyancy& kind, const Subject& subject) {
   const Quat inverse = subject.at.rotation.conjugate();
   const Vec3 own = inverse * result.normal;
   const Vec3& center = subject.body.mass().center;
-  // In the node's own axes, where the solid is.
+  // In the node's own axes, in which the solid is given.
   const double level = kind.level - result.normal.dot(subject.at.center) + own.dot(center);
   result.part = shapes::submerged(subject.body.shape(), own, level);
   result.arm = subject.at.rotation * (result.part.center - center);
@@ -47,7 +47,7 @@ Effect effect_of(const Buoyancy& kind, double strength, const Subject& subject, 
 std::optional<double> energy_of(const Buoyancy& kind, double strength, const Subject& subject, const Moment& moment) {
   const Afloat at = afloat(kind, subject);
   const double pull = -at.normal.dot(moment.gravity);
-  // What draws along the surface too has a force with a curl at it.
+  // If gravity also has a part along the surface, the force has a curl there.
   if ((moment.gravity + pull * at.normal).norm() > 1e-12 * moment.gravity.norm()) return std::nullopt;
   const double depth = at.level - at.normal.dot(subject.at.center + at.arm);
   return at.part.volume > 0 ? not_negative(strength) * kind.density * at.part.volume * pull * depth : 0;

@@ -13,7 +13,7 @@ namespace tweenfall::forces {
 
 namespace {
 
-/// x^y to 4e-14, in a sixth of the time that the last digit takes: a hundred thousand particles ask for it twice
+/// x^y to 4e-14, in a sixth of the time that full precision takes: a hundred thousand particles need it twice
 /// in a step. @param x  1e-60 to 1e60  @param y  -5 to 5
 ///
 /// x = 2^e m with m from sqrt(1/2) to sqrt(2), log m = 2 artanh((m - 1) / (m + 1)), and exp by its Taylor series around

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What each kind of force does, one file for each.
+/// What each kind of force does, one file per kind.
 
 #include <optional>
 #include <span>
@@ -15,12 +15,12 @@ namespace tweenfall::forces {
 struct Effect {
   Vec3 force{0, 0, 0};            ///< N
   Vec3 torque{0, 0, 0};           ///< N m
-  double resistance = 0;          ///< kg/s: besides that, -resistance (velocity - medium)
-  double angular_resistance = 0;  ///< kg m^2/s: besides that, -angular_resistance times the spin
+  double resistance = 0;          ///< kg/s: an additional force of -resistance (velocity - medium)
+  double angular_resistance = 0;  ///< kg m^2/s: an additional torque of -angular_resistance times the spin
   Vec3 medium{0, 0, 0};           ///< m/s
 };
 
-/// All bodies at an instant that is asked about.
+/// All bodies at the instant of evaluation.
 class Moment {
  public:
   Moment(const std::vector<state::Body>& all, const Vec3& pull, double when) : bodies(all), gravity(pull), time(when) {}
@@ -40,7 +40,7 @@ struct Subject {
   Glimpse at;
 };
 
-// Of those that act on each body by itself
+// Forces that act on each body by itself
 [[nodiscard]] Effect effect_of(const Drag& kind, double strength, const Subject& subject, const Moment& moment);
 [[nodiscard]] Effect effect_of(const Field& kind, double strength, const Subject& subject, const Moment& moment);
 [[nodiscard]] Effect effect_of(const Wind& kind, double strength, const Subject& subject, const Moment& moment);
@@ -50,11 +50,11 @@ struct Subject {
 [[nodiscard]] Effect effect_of(const ForceFormula& kind, double strength, const Subject& subject, const Moment& moment);
 [[nodiscard]] Effect effect_of(const Push& kind, double strength, const Subject& subject, const Moment& moment);
 
-// Of those that are between two points: as springs
+// Forces between two points, as springs
 [[nodiscard]] Spring spring_of(const Spring& kind, double strength);
 [[nodiscard]] Spring spring_of(const Damper& kind, double strength);
 
-// Energy of one body in it, J. What has no file of its own for it has none
+// Potential energy of one body, J. Kinds without a function of their own have none
 [[nodiscard]] std::optional<double> energy_of(const Buoyancy& kind, double strength, const Subject&, const Moment&);
 [[nodiscard]] std::optional<double> energy_of(const Attractor& kind, double strength, const Subject&, const Moment&);
 [[nodiscard]] std::optional<double> energy_of(const ForceFormula& kind, double strength, const Subject&, const Moment&);
@@ -63,10 +63,10 @@ template <class Kind>
 [[nodiscard]] std::optional<double> energy_of(const Kind&, double, const Subject&, const Moment&) {
   return std::nullopt;
 }
-/// Of a spring as it stands.
+/// Of a spring between the bodies' positions.
 [[nodiscard]] double energy_of(const Spring& spring, const Moment& moment);
 
-// Whether their numbers can be. All throw std::invalid_argument
+// Check the numbers. All throw std::invalid_argument
 void validate(const Drag& kind);
 void validate(const Spring& kind);
 void validate(const Field& kind);
@@ -78,7 +78,7 @@ void validate(const Vortex& kind);
 void validate(const ForceFormula& kind);
 void validate(const Push& kind);
 
-// Which bodies a kind names itself
+// Bodies that a force names itself
 struct Named {
   bool alone = false;            ///< it acts on no others
   std::array<BodyId, 2> ends{};  ///< the default handle: none
@@ -100,13 +100,13 @@ template <class Kind>
   return {};
 }
 
-/// Drag of a medium against which a body moves so fast.
+/// Drag of a medium on a body that moves through it with this speed.
 [[nodiscard]] double resistance_of(const Drag& drag, double speed);
-/// The share of a strength that what resists has.
+/// The strength that applies to resistance.
 [[nodiscard]] inline double not_negative(double strength) {
   return strength > 0 ? strength : 0;
 }
-/// 1 / r^(power + 1) for r = sqrt(square): what a vector of that length is multiplied with. 0 where it has no value.
+/// 1 / r^(power + 1) with r = sqrt(square): the factor for a vector of that length. 0 if it has no value.
 [[nodiscard]] double fall_off(double square, double power);
 void require_power(double power, const char* name);
 
