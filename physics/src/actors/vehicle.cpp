@@ -19,7 +19,7 @@ namespace tweenfall {
 namespace vehicles {
 namespace {
 
-/// Below this speed of rolling, slip is told over it, m/s.
+/// Below this rolling speed, slip is relative to it, m/s.
 constexpr double slow = 1e-3;
 constexpr double most = 1e30;
 
@@ -42,7 +42,7 @@ Vec3 velocity_at(const Motion& motion, const Vec3& point) {
   return motion.twist.linear + motion.twist.angular.cross(point - motion.pose.position);
 }
 
-/// How much an impulse along a unit direction changes the velocity of a point along it, 1/kg.
+/// By how much a unit impulse along a unit direction changes the velocity of a point along it, 1/kg.
 double give_of(const World& world, BodyId body, const Vec3& point, const Vec3& direction) {
   if (world.is_fixed(body) || world.owner(body) == Owner::keyed) return 0;
   const MassProperties& mass = world.mass(body);
@@ -52,7 +52,7 @@ double give_of(const World& world, BodyId body, const Vec3& point, const Vec3& d
   return 1 / mass.mass + lever.dot(mass.inertia.inverse() * lever);
 }
 
-/// Toward 0 by at most so much.
+/// Moves a value toward 0 by at most `by`.
 double slowed(double value, double by) {
   return value > 0 ? std::max(0.0, value - by) : std::min(0.0, value + by);
 }
@@ -66,8 +66,8 @@ struct Vehicle::Stand {
   Vec3 point{0, 0, 0}, normal{0, 1, 0};
   double length = 0, load = 0;
   Vec3 along{1, 0, 0}, across{0, 0, 1};    ///< the wheel's heading in the ground, and to its left
-  double speed = 0, drift = 0;             ///< against the ground, along and across, m/s
-  double give_along = 0, give_across = 0;  ///< how much an impulse there changes them, 1/kg
+  double speed = 0, drift = 0;             ///< relative to the ground, along and across, m/s
+  double give_along = 0, give_across = 0;  ///< by how much a unit impulse there changes them, 1/kg
 };
 
 Vehicle::Vehicle(VehicleSettings settings) : settings_(std::move(settings)) {
@@ -132,7 +132,7 @@ Vehicle::Stand Vehicle::find_stand(const World& world, const Motion& chassis, st
   filter.accept = [&](BodyId body) { return body != settings_.chassis; };
   const auto hit = cast_ray(world, mount, -up, its.rest_length + its.radius, filter);
   stand.length = its.rest_length;
-  // Of ground that the strut would lie in, or that faces the other way, nothing holds.
+  // Ground that the strut would be inside of, or that faces the other way, holds nothing.
   if (!hit || hit->inside || !(hit->normal.dot(up) > 0.1)) return stand;
   stand.ground = hit->body;
   stand.point = hit->point;
@@ -159,8 +159,8 @@ Vehicle::Stand Vehicle::find_stand(const World& world, const Motion& chassis, st
   return stand;
 }
 
-/// The tyre's force, and the wheel's spin.
-/// @param share  of all that the wheels bear, this one's @param borne  of the chassis' mass, kg
+/// The tire's force, and the wheel's spin.
+/// @param share  this wheel's part of the load of all wheels @param borne  its part of the chassis' mass, kg
 Vec3 Vehicle::grip(const Stand& stand, double share, double borne, std::size_t wheel, double dt) {
   const WheelSettings& its = settings_.wheels[wheel];
   const WheelControl& control = controls_[wheel];
@@ -168,12 +168,12 @@ Vec3 Vehicle::grip(const Stand& stand, double share, double borne, std::size_t w
   const double turn = dt / its.moment;
   double spin = reading.spin + turn * control.torque;
   const double braked = vehicles::slowed(spin, turn * control.brake);
-  // What the brake has left holds against the ground's torque as well.
+  // What is left of the brake's torque also holds against the ground's torque.
   const double left = turn * control.brake - std::abs(spin - braked);
   spin = braked;
   Vec3 force = Vec3::Zero();
   if (stand.touches) {
-    // What gravity would make of the slip meanwhile has to be held, too.
+    // The slip that gravity would add meanwhile has to be held, too.
     const double fall = dt * settings_.gravity.dot(stand.along), side_fall = dt * settings_.gravity.dot(stand.across);
     const double own_slip = stand.speed - spin * its.radius, slip = own_slip + fall, drift = stand.drift + side_fall;
     const double size = std::hypot(slip, drift), rolling = std::max(vehicles::slow, std::abs(spin) * its.radius);
@@ -182,14 +182,14 @@ Vec3 Vehicle::grip(const Stand& stand, double share, double borne, std::size_t w
     // sin(atan(x))
     const double part = std::isfinite(rise * rise) ? rise / std::sqrt(1 + rise * rise) : 1;
     const bool locked = left > 0 && spin == 0;
-    // Gravity pulls at all of the mass; a push so far below its middle tilts it, and moves less.
+    // Gravity pulls at the whole mass; a push so far below the center of mass tilts it, and moves it less.
     const double turns = locked ? 0 : its.radius * its.radius / its.moment;
     const auto mass = [turns](double give) { return 1 / (give + turns); };
-    // What is led by scripts, over ground that is led too, gives nothing; where it does not slip it needs no force.
+    // A chassis led by scripts over led ground does not yield; if it does not slip, it needs no force.
     const auto ending = [](double slip_of_it, double by_mass) { return slip_of_it == 0 ? 0 : by_mass * slip_of_it; };
     double along = -(ending(own_slip, mass(stand.give_along / share)) + mass(1 / borne) * fall) / dt;
     double across = -(ending(stand.drift, share / stand.give_across) + borne * side_fall) / dt;
-    // Within the ellipse of what it can grip.
+    // Within the ellipse of its grip.
     const double most_along = its.grip * stand.load * part, most_across = its.side_grip * stand.load * part;
     const double beyond =
         std::hypot(most_along > 0 ? along / most_along : 0, most_across > 0 ? across / most_across : 0);

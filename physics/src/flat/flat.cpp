@@ -32,7 +32,7 @@ planar::BodySettings settings_of(const state::Body& body, const Axes& axes) {
   const state::Makeup& makeup = *body.makeup;
   planar::BodySettings its;
   its.shape = section_of(makeup.shape, axes);
-  // A body is as heavy, and turns as heavily, as it does in space.
+  // A body has the mass and the moment of inertia that it has in space.
   if (makeup.mass.mass > 0) {
     its.mass = makeup.mass.mass;
     its.moment = makeup.mass.inertia(axes.normal, axes.normal);
@@ -142,7 +142,7 @@ void Flat::take_over(const state::Body& body, std::uint32_t index, const Vec3& g
     owners_.resize(std::max<std::size_t>(owners_.size(), entry.id.index + std::size_t{1}));
     owners_[entry.id.index] = index;
   }
-  // A path may go on turning: its angle goes on from the one that the body has.
+  // A path may keep turning: its angle continues from that of the body.
   const auto beside = [&](planar::Motion motion) {
     const double whole = 2 * std::numbers::pi, now = world_.motion(entry.id).angle;
     motion.angle += whole * std::floor((now - motion.angle) / whole + 0.5);
@@ -154,7 +154,7 @@ void Flat::take_over(const state::Body& body, std::uint32_t index, const Vec3& g
   }
   if (!same(entry.told, body.motion)) {
     world_.set_motion(entry.id, beside(axes.flat(body.motion)));
-    // What a soft body moved goes on to where it was driven.
+    // If a soft body moved it, it continues toward where it was driven.
     if (body.drive.owner() == Owner::driven) world_.set_target(entry.id, beside(axes.flat(body.target())));
     entry.told = body.motion;
   }
@@ -246,7 +246,7 @@ void Flat::tell_contacts(state::WorldState& world) const {
   world.ended.clear();
   std::swap(world.ended, world.gone_contacts);
   for (std::size_t i = 0; i < before.size(); ++i) {
-    // Of several parts that touched, all have let go.
+    // If several parts touched, all of them have separated.
     if (i > 0 && key(before[i - 1]) == key(before[i])) continue;
     if (!std::binary_search(world.planar_contacts.begin(), world.planar_contacts.end(), before[i], order))
       world.ended.push_back({before[i].a, before[i].b});

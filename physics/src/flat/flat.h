@@ -1,6 +1,6 @@
 #pragma once
 
-/// A world whose bodies lie in a plane: they are carried by a world in two dimensions.
+/// A world whose bodies lie in a plane: they are simulated by a world in two dimensions.
 
 #include <tweenfall/physics/planar_world.h>
 #include <tweenfall/physics/soft_body.h>
@@ -24,39 +24,39 @@ class ByteWriter;
 
 namespace tweenfall::flat {
 
-// All of these pass where there is no plane, and else throw std::invalid_argument that tells what does not lie in it.
+// All of these pass if there is no plane, and otherwise throw std::invalid_argument naming what does not lie in it.
 void validate(const WorldSettings& settings);
 void require_body(WorldPlane plane, const BodySettings& body);
 void require_motion(WorldPlane plane, const Motion& motion);
 void refuse(WorldPlane plane, const char* what);
-/// A place, or a way.
+/// A point, or a displacement.
 void require_point(WorldPlane plane, const Vec3& point, const char* what);
 void require_soft(WorldPlane plane, const SoftSettings& soft);
-/// What of a vector lies in the plane, where there is one.
+/// The part of a vector in the plane, if there is one; else the vector.
 [[nodiscard]] Vec3 in_plane(WorldPlane plane, const Vec3& v);
-/// The same of a joint, whose rotations are of unit length.
+/// The same check for a joint, whose rotations must be of unit length.
 void require_joint(WorldPlane plane, const tweenfall::JointSettings& joint);
 
-/// What the bodies of a world are in their plane.
+/// The bodies of a world in its plane.
 class Flat {
  public:
   void begin(const WorldSettings& settings);
 
-  /// Tells the plane what has been done to the bodies since the last step.
+  /// Passes on to the plane what has been done to the bodies since the last step.
   void take_over(const state::WorldState& world);
-  // Forces of the world through the next step. What is asleep goes on to be pulled as it was when it fell asleep.
+  // Forces of the world through the next step. A sleeping body keeps the pull with which it fell asleep.
   void begin_pushes(const state::WorldState& world);
-  /// A force in N and a torque in N m; what points out of the plane is borne by it.
+  /// A force in N and a torque in N m; the plane bears the part that points out of it.
   /// @param index  of the body in the world @param arm  from its center of mass to where the force acts
   void push(std::uint32_t index, const Vec3& force, const Vec3& torque, const Vec3& arm);
   void exert(const state::WorldState& world);
   /// @throws NotFinite
   void step(double dt, double parts);
-  /// Tells the bodies where they are now, and the world what touches.
+  /// Writes to the bodies where they are now, and to the world what touches.
   void hand_back(state::WorldState& world);
-  /// The forces of the last step of joints, and how far they have turned.
+  /// Writes the forces of joints in the last step, and how far the joints have turned.
   void hand_back_joints(state::WorldState& world, double dt) const;
-  void forget_joint(std::uint32_t index);  ///< by the world's index: it is taken over anew
+  void forget_joint(std::uint32_t index);  ///< by the world's index: it is copied again in the next step
   /// Keyed bodies have arrived: from here on they are where the world says.
   void settle(const state::WorldState& world);
 
@@ -67,16 +67,16 @@ class Flat {
 
  private:
   struct Entry {
-    BodyId id;                     ///< in the plane; none for a free place
+    BodyId id;                     ///< in the plane; none for an unused entry
     std::uint32_t generation = 0;  ///< in the world
     Drive drive;
     std::uint64_t groups = 0, collides_with = 0;
-    Motion told;       ///< where the world had it when the plane last heard of it
-    Vec2 force{0, 0};  ///< that it was pushed with last, N
+    Motion told;       ///< where the world had it when the plane last took it over
+    Vec2 force{0, 0};  ///< the last force on it, N
     double torque = 0;
   };
   struct Link {
-    JointId id;                    ///< in the plane; none for a free place
+    JointId id;                    ///< in the plane; none for an unused entry
     std::uint32_t generation = 0;  ///< in the world
   };
   using Pair = std::pair<std::uint32_t, std::uint32_t>;

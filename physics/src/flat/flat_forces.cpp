@@ -12,7 +12,7 @@ namespace {
 /// One end of a spring that is too stiff to be taken as it is at the start of a step.
 struct StiffEnd {
   Vec3 place, velocity, arm;
-  double give = 0;  ///< of its point along the spring, 1/kg
+  double give = 0;  ///< inverse mass of its point along the spring, 1/kg
 };
 
 StiffEnd end_of(const state::Body& body, const Vec3& local) {
@@ -57,9 +57,9 @@ void Flat::exert(const state::WorldState& world) {
 
 }  // namespace flat
 
-/// What forces give bodies of a plane, through the step as one: the mean of what they are at its start and where bodies
-/// would be at its end. What resists, and springs too stiff for the step, are taken as at its end, so that nothing
-/// makes them grow; what points out of the plane is borne by it.
+/// Applies forces to bodies of a plane, constant through the step: the mean of their values at its start and where
+/// bodies would be at its end. Resistance, and springs too stiff for the step, are taken as at its end, so that nothing
+/// makes them grow; the plane bears what points out of it.
 void World::Implementation::push_in_plane(double dt) {
   flat::Flat& plane = flat.own();
   plane.begin_pushes(*this);

@@ -19,7 +19,7 @@ namespace {
   throw std::invalid_argument("in a plane " + why);
 }
 
-/// What of a kind does not lie in a plane, or is not there.
+/// Refuses joints that do not lie in the plane, or kinds that do not exist there.
 struct InPlane {
   const Axes& axes;
   const tweenfall::JointSettings& settings;
@@ -53,7 +53,7 @@ struct InPlane {
   }
 };
 
-/// Whether a turn of the plane is one about a wheel's own axis, or one back.
+/// Whether a turn in the plane is one about the wheel's own axis, or the opposite one.
 struct GearSigns {
   double a = 1, b = 1;
 };
@@ -61,10 +61,10 @@ GearSigns signs_of(const Axes& axes, const joints::Placement& at) {
   return {axes.sign * std::copysign(1.0, at.x_a()[axes.normal]), axes.sign * std::copysign(1.0, at.x_b()[axes.normal])};
 }
 
-/// An angle about an axis that stands upright on the plane, as the plane counts it.
+/// An angle about an axis perpendicular to the plane, as the plane counts it.
 class AngleInPlane {
  public:
-  /// @param turned  of b against a in the plane, where the angle is `here`, rad
+  /// @param turned  angle of b relative to a in the plane, when the joint's angle is `here`, rad
   AngleInPlane(const Axes& axes, const joints::Placement& at, double turned, double here)
       : sign_(axes.sign * std::copysign(1.0, at.x_a()[axes.normal])), turned_(turned), here_(here) {}
 
@@ -97,12 +97,12 @@ void require_joint(WorldPlane plane, const tweenfall::JointSettings& settings) {
   std::visit(InPlane{axes, settings}, settings.kind);
 }
 
-/// A joint as it is in the plane, its bodies as they stand.
+/// A joint as it is in the plane, for the present poses of its bodies.
 planar::JointSettings Flat::joint_in_plane(const state::WorldState& world, const state::Joint& joint) const {
   const Axes axes = Axes::of(plane_);
   const tweenfall::JointSettings& its = joint.settings;
   planar::JointSettings out;
-  double turned = 0;  // of b against a, rad
+  double turned = 0;  // of b relative to a, rad
   if (its.a != BodyId{}) {
     out.a = entries_[its.a.index].id;
     turned -= world_.motion(out.a).angle;
@@ -113,7 +113,7 @@ planar::JointSettings Flat::joint_in_plane(const state::WorldState& world, const
   out.anchor_b = axes.flat(its.frame_b.position);
   out.collide = its.collide;
   const joints::Placement at = joints::placement_in(joint, world.bodies);
-  // As far as b still has to turn until the frames are one.
+  // The angle after b has turned until the frames match.
   const auto matched = [&] { return turned + axes.angle(at.axes_a * at.axes_b.conjugate()); };
   if (const auto* const distance = std::get_if<DistanceJoint>(&its.kind)) {
     out.kind = planar::Distance{distance->limits};

@@ -9,13 +9,13 @@
 
 namespace tweenfall::flat {
 
-/// What a world's plane cuts out of a body, to be touched by balls in the plane.
+/// The section of a body by the world's plane, which balls in the plane touch.
 class Section {
  public:
   Section(const Shape& shape, WorldPlane plane);
 
-  /// Where a ball touches it deepest, or is nearest, out of the section.
-  /// @param node  of the body @param ball  its middle, world, m @param reach  gaps up to this are told, m
+  /// Where a ball touches it deepest, or is nearest; the normal points out of the section.
+  /// @param node  of the body @param ball  its center, world, m @param reach  gaps up to this are reported, m
   [[nodiscard]] Manifold touch(const Pose& node, const Vec3& ball, double radius, double reach) const;
 
  private:

@@ -14,14 +14,14 @@ namespace tweenfall::flat {
 
 namespace {
 
-/// What is off by no more is rounding, m or parts of a unit.
+/// Deviations up to this are rounding, m or relative to a unit.
 constexpr double rounding = 1e-9;
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Around points in a plane, counterclockwise, without points inside of sides.
+/// The convex hull of points in a plane, counterclockwise, without points inside of sides.
 /// Source: Andrew, Another efficient algorithm for convex hulls in two dimensions, 1979.
 std::vector<Vec2> around(std::vector<Vec2> points) {
   std::sort(points.begin(), points.end(),
@@ -46,7 +46,7 @@ std::vector<Vec2> around(std::vector<Vec2> points) {
   return lower;
 }
 
-/// The section of what can be in a compound.
+/// The section of a shape that can be part of a compound.
 planar::Part part_of(planar::Shape&& section) {
   planar::Part part{.offset = section.offset, .angle = section.angle};
   std::visit(
@@ -57,7 +57,7 @@ planar::Part part_of(planar::Shape&& section) {
   return part;
 }
 
-/// A shape's axes in those of the node.
+/// A shape's axes relative to those of the node.
 struct Cut {
   const Axes& axes;
   Vec3 offset;
@@ -68,7 +68,7 @@ struct Cut {
                                 " cannot be cut by the world's plane: its axes must lie in the plane or stand "
                                 "upright on it, and its center in it");
   }
-  /// Which of the shape's own axes stands upright on the plane; -1: none.
+  /// Which of the shape's own axes is perpendicular to the plane; -1: none.
   [[nodiscard]] int upright() const {
     for (int i = 0; i < 3; ++i)
       if (std::abs(std::abs(turn.col(i)[axes.normal]) - 1) <= rounding) return i;

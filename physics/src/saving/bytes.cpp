@@ -8,7 +8,7 @@ namespace tweenfall::saving {
 
 namespace {
 
-/// Before a hull, a mesh or a height field that has not been written yet.
+/// Precedes a hull, a mesh or a height field that has not been written yet.
 constexpr std::uint32_t first_time = 0xffffffff;
 
 }  // namespace

@@ -28,7 +28,7 @@ template <class T>
     return static_cast<Word<T>>(value);
 }
 
-/// The number of an enumeration's last word, where bytes are held against it; -1: whoever reads does that.
+/// The number of an enumeration's last value, up to which bytes are checked; -1: whoever reads checks them.
 template <class Enumeration>
 inline constexpr int last_of = -1;
 
@@ -43,7 +43,7 @@ class ByteWriter : public Teller<ByteWriter> {
     number(static_cast<std::uint64_t>(text.size()));
     for (const char c : text) number(c);
   }
-  /// Of hulls that are shared only the first is written; then its number. So it is with meshes and height fields.
+  /// A shared hull is only written the first time; afterwards its number. Likewise meshes and height fields.
   void hull(const ConvexHull& hull);
   void mesh(const TriangleMesh& mesh);
   void heights(const HeightField& field);
@@ -53,13 +53,13 @@ class ByteWriter : public Teller<ByteWriter> {
   std::vector<std::byte> bytes;
 
  private:
-  /// Whether it has been written before, and then its number.
+  /// Whether it has been written before; then its number is written.
   bool known(std::unordered_map<const void*, std::uint32_t>& all, const void* data);
 
   std::unordered_map<const void*, std::uint32_t> hulls_, meshes_, fields_;
 };
 
-/// All functions throw std::invalid_argument when the bytes are too few or tell what cannot be.
+/// All functions throw std::invalid_argument when the bytes are too few or their contents are impossible.
 class ByteReader {
  public:
   static constexpr bool skips_zeros = false;
@@ -84,7 +84,7 @@ class ByteReader {
   template <class T>
   void list(std::vector<T>& values) {
     values.clear();
-    // One by one: a count that is wrong comes to the end of the bytes before it takes much room.
+    // One by one: a wrong count meets the end of the bytes before it takes much memory.
     for (std::uint64_t left = count(); left > 0; --left) walk(*this, values.emplace_back());
   }
   void list(ContactMemories& memories) {
@@ -117,13 +117,13 @@ class ByteReader {
   }
   [[noreturn]] void field(Field&);
 
-  /// @throws std::invalid_argument telling where in the bytes that is
+  /// @throws std::invalid_argument saying where in the bytes that is
   void require(bool holds, const char* what) const;
   [[nodiscard]] std::size_t place() const { return place_; }
   [[nodiscard]] bool at_end() const { return place_ == bytes_.size(); }
 
  private:
-  /// Of things of which each takes a byte or more.
+  /// Of elements that take at least one byte each.
   std::uint64_t count();
   template <class T, class Variant>
   void read_as(Variant& value) {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The fields of all that a world's state is made of, each listed once: what is hashed, saved and loaded is the same. A
-/// field that is added and not listed here does not compile.
+/// The fields of everything in a world's state, each listed once, so that what is hashed, saved and loaded is the same.
+/// A field that is added and not listed here does not compile.
 
 #include <cstdint>
 
@@ -129,7 +129,7 @@ void each_field(T& makeup, const Visit& visit) {
   visit(linear_damping, angular_damping, mass.mass, friction, restitution, rolling_friction, spinning_friction,
         friction_combine, restitution_combine, sensor, shape);
   visit.rarely(weighed);
-  if (weighed) visit(mass.center, mass.inertia);  // else they follow from the shape
+  if (weighed) visit(mass.center, mass.inertia);  // otherwise they follow from the shape
   follows_from_others(inverse_inertia, radius, roundness, spherical, turned);
 }
 
@@ -144,7 +144,7 @@ void each_field(T& body, const Visit& visit) {
   auto& [alive, fixed, asleep, placed, has_target, led, saturated, conveys, generation, drive, still_for, center, twist,
          motion, work, filter, makeup, extra] = body;
   visit(alive, generation);
-  if (!alive) return;  // its place and number alone matter
+  if (!alive) return;  // only its index and generation matter
   visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion);
   state::Work applied = work.value();
   visit(applied.force, applied.torque);
@@ -170,7 +170,7 @@ void each_field(T& stand, const Visit& visit) {
   visit(center, rotation);
 }
 
-/// The number of points that an array of them has room for, whatever it is told.
+/// The number of points limited to the size of their array, whatever the count says.
 [[nodiscard]] constexpr std::size_t within_four(int count) {
   return static_cast<std::size_t>(count < 0 ? 0 : count > 4 ? 4 : count);
 }
@@ -396,7 +396,7 @@ void each_field(T& world, const Visit& visit) {
   visit.rarely(has_softs);
   if (has_softs) visit(softs, unused_softs);
   follows_from_others(sensors);
-  follows_from_others(flat);    // kept behind all others, where there is a plane
+  follows_from_others(flat);    // saved after everything else, if there is a plane
   follows_from_others(failed);  // a body that is not finite cannot be saved, and is found again
 }
 

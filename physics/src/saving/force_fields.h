@@ -1,6 +1,6 @@
 #pragma once
 
-/// The fields of forces, each listed once, as in `saving/fields.h`. What hides how it is made is told in parts.
+/// The fields of forces, each listed once, as in `saving/fields.h`. Opaque types are taken apart.
 
 #include <concepts>
 #include <string>
@@ -26,7 +26,7 @@ struct StrengthParts {
   std::string text;
 };
 [[nodiscard]] StrengthParts parts_of(const Strength& strength);
-/// @throws std::invalid_argument for what cannot be
+/// @throws std::invalid_argument for impossible parts
 [[nodiscard]] Strength made_of(const StrengthParts& parts);
 
 struct FormulaParts {
@@ -34,7 +34,7 @@ struct FormulaParts {
   std::vector<ForceFormula::Parameter> parameters;
 };
 [[nodiscard]] FormulaParts parts_of(const ForceFormula& formula);
-/// @throws std::invalid_argument for what cannot be
+/// @throws std::invalid_argument for impossible parts
 [[nodiscard]] ForceFormula made_of(const FormulaParts& parts);
 
 template <class T>

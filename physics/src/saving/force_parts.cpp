@@ -20,7 +20,7 @@ StrengthParts parts_of(const Strength& strength) {
   parts.text = strength.text();
   if (const std::optional<Curve<double>>& curve = strength.curve()) {
     parts.spans = curve->spans();
-    // What is above the degree is nothing, whatever stands there.
+    // Coefficients above the degree are zero, whatever they hold.
     for (Span<double>& span : parts.spans)
       std::fill(span.coefficients.begin() + span.degree + 1, span.coefficients.end(), 0.0);
     const auto beyond = [](const OutsideRule<double>& rule) -> StrengthParts::Beyond {

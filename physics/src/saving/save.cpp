@@ -26,7 +26,7 @@ bool unit(const Quat& rotation) {
   return std::abs(rotation.norm() - 1) <= 1e-9;
 }
 
-// Impulses and ways between bodies may be larger than what a world takes of its caller.
+// Impulses and distances between bodies may be larger than what a world accepts from its caller.
 void require_number(double value, const char* name) {
   state::require(std::isfinite(value), std::string(name) + " must be a finite number");
 }
@@ -34,7 +34,7 @@ void require_numbers(const Vec3& value, const char* name) {
   state::require(value.allFinite(), std::string(name) + " must be finite numbers");
 }
 
-/// Sets what follows from the rest, too.
+/// Also sets what follows from the rest.
 void check(Body& body, state::Makeups& makeups) {
   Makeup makeup = *body.makeup;
   const Extra& extra = body.extra.value();
@@ -106,7 +106,7 @@ void check(const Contact& contact) {
                  "its approach speed must be finite");
 }
 
-/// Runs a check with the place of what is checked in front of its words.
+/// Runs a check, and puts the place of what is checked in front of its message.
 template <class Check>
 void at(const std::string& place, const Check& check_it) {
   try {
@@ -266,7 +266,7 @@ void check_softs(WorldState& world) {
   state::require(std::ranges::count(free, 1) == 0, "a saved world has a bad list of free soft bodies");
 }
 
-/// Sets what follows from the rest, too.
+/// Also sets what follows from the rest.
 void check(WorldState& world) {
   at("setting", [&] { state::validate(world.settings); });
   state::require(world.time >= 0 && std::isfinite(world.time), "a saved world has a bad time");

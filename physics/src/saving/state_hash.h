@@ -10,7 +10,7 @@
 
 namespace tweenfall::saving {
 
-/// Mixes all numbers that it is handed into one.
+/// Mixes all numbers that it gets into one.
 class StateHash : public Teller<StateHash> {
  public:
   static constexpr bool skips_zeros = true;

@@ -34,7 +34,7 @@ struct IsArray : std::false_type {};
 template <class T, std::size_t count>
 struct IsArray<std::array<T, count>> : std::true_type {};
 
-/// Hands every number to `tool.number(...)`, and what is not made of fields to `tool.list`, `tool.choice`,
+/// Passes every number to `tool.number(...)`, and what does not consist of fields to `tool.list`, `tool.choice`,
 /// `tool.hull` and the like, in a fixed order.
 template <class Tool>
 class Walk {
@@ -45,12 +45,12 @@ class Walk {
   void operator()(T&... values) const {
     (one(values), ...);
   }
-  /// Places in lists, of which the greatest number is none: the same bytes wherever they are written.
+  /// Places in lists, with the greatest number for none: the same bytes on every platform.
   template <class... T>
   void places(T&... values) const {
     (place(values), ...);
   }
-  /// Numbers that are hardly ever other than 0: where all are, a hash leaves them out.
+  /// Numbers that are nearly always 0: if all of them are, a hash leaves them out.
   template <class... T>
   void rarely(T&... numbers) const {
     if (tool_.skips_zeros && ((numbers == T{}) && ...)) return;
@@ -144,7 +144,7 @@ void walk(Tool& tool, T& value) {
   Walk<Tool>{tool}(value);
 }
 
-/// What is common to tools that only read the state.
+/// What all tools have in common that only read the state.
 template <class Tool>
 class Teller {
  public:

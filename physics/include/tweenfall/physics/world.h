@@ -71,8 +71,8 @@ struct WorldSettings {
   PairSearch broad_phase{};     ///< how pairs that may meet are found
   /// When set, bodies collide as their sections in this plane, by the solver of `planar_world.h`, and not one bit
   /// leaves the plane. Then `iterations`, `threads` and the parts of forces that point out of the plane are ignored,
-  /// the strategies above must be the defaults, joints may be ball, hinge, slider, weld, distance or spring joints, and
-  /// no surface may move, spin or be made of faces.
+  /// the strategies above must be the defaults, there are no universal and no swing-twist joints, and no surface may
+  /// move, spin or be made of faces.
   WorldPlane plane{};
   int threads = 0;  ///< threads that share a step, 0 to 256; 0 and 1: the calling thread alone. Never changes a bit
 };

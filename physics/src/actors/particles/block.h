@@ -1,6 +1,6 @@
 #pragma once
 
-/// A stretch of particles while an integrator takes them through a step.
+/// A block of particles that an integrator moves through a step.
 
 #include <tweenfall/physics/particles.h>
 
@@ -10,16 +10,16 @@
 
 namespace tweenfall::particles {
 
-/// Particles that are worked on together: as many as stay in a processor's nearest memory.
+/// Particles that are handled together: as many as fit into a processor's nearest cache.
 inline constexpr std::size_t most_together = 256;
 
-/// Three numbers for each of some particles.
+/// Three numbers per particle.
 using Lists = std::array<std::array<double, most_together>, 3>;
 
-/// What acts on some particles at one state of theirs.
+/// What acts on some particles at one of their states.
 struct Pulls {
-  Lists acceleration;                      ///< m/s^2, with what media carry along and without their drag
-  Lists carried;                           ///< of that, what media carry along
+  Lists acceleration;                      ///< m/s^2, including what media carry along, but without their drag
+  Lists carried;                           ///< the part of it that media carry along
   std::array<double, most_together> drag;  ///< 1/s
   bool drags = false, carries = false;     ///< whether any does
 };
@@ -29,29 +29,29 @@ struct PullingForce {
   double start, middle, end;  ///< strength through the step
 };
 
-/// All that acts on particles through a step.
+/// Everything that acts on particles through a step.
 struct Pulling {
   Vec3 gravity;
   double mass, radius;
   std::span<const PullingForce> forces;
-  bool steady = true;  ///< none depends on a place or the time
+  bool steady = true;  ///< none depends on a position or the time
 };
 
 enum class Instant { start, middle, end };
 
-/// What acts on `count` particles at a state.
+/// Computes what acts on `count` particles at a state.
 void find_pulls(const Pulling& pulling, std::size_t count, const Lists& places, const Lists& speeds, double time,
                 Instant instant, Pulls& pulls);
 
-/// Takes `count` particles through `dt` seconds.
+/// Moves `count` particles through `dt` seconds.
 void integrate(Integrator integrator, const Pulling& pulling, std::size_t count, double time, double dt, Lists& places,
                Lists& speeds);
-/// Whether it does.
+/// Whether `integrate` has this integrator.
 [[nodiscard]] bool integrates(Integrator integrator);
 
-/// Whether it is a kind that acts on particles.
+/// Whether a force is of a kind that acts on particles.
 [[nodiscard]] bool acts_on_particles(const Force& force);
-/// Whether what it does is the same everywhere and at all times.
+/// Whether its effect is the same everywhere and at all times.
 [[nodiscard]] bool is_steady(const Force& force);
 
 }  // namespace tweenfall::particles

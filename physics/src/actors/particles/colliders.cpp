@@ -13,21 +13,21 @@ namespace tweenfall::particles {
 
 namespace {
 
-/// Bounces of a particle in a step, at most: then it slides.
+/// Most bounces of a particle in a step: afterwards it slides.
 constexpr int most_bounces = 8;
-/// What a particle that has bounced is away from the surface, by the size of its place: rounding.
+/// Distance of a bounced particle from the surface, relative to its position: rounding.
 constexpr double skin = 1e-12;
 
 double lift_of(const Vec3& place) {
   return skin * std::max(1.0, place.cwiseAbs().maxCoeff());
 }
 
-/// When g0 + g1 t + g2 t^2 / 2 first falls to 0 within `most`; negative when it does not.
+/// When g0 + g1 t + g2 t^2 / 2 first falls to 0 within `most`; negative if it does not.
 double falls_to_zero(double g0, double g1, double g2, double most) {
   if (g0 <= 0) return g1 < 0 || (g1 == 0 && g2 < 0) ? 0 : -1;
   const double root = g1 * g1 - 2 * g0 * g2;
   if (!(root >= 0)) return -1;
-  // The smaller positive root, told without a difference of like numbers.
+  // The smaller positive root, computed without subtracting nearly equal numbers.
   const double q = std::sqrt(root) - g1;
   const double time = q > 0 ? 2 * g0 / q : -1;
   return time >= 0 && time <= most ? time : -1;
@@ -55,7 +55,7 @@ Colliders::Colliders(const World& world, double dt, double radius, double restit
       planes_.push_back(one);
       continue;
     }
-    // With where it came from in the step.
+    // Including where it came from in the step.
     Bounds box = bounds(*one.shape, one.pose);
     const double reach = dt * (one.twist.linear.norm() + one.twist.angular.norm() * body.radius()) + radius;
     box.low -= Vec3::Constant(reach);
@@ -71,7 +71,8 @@ void Colliders::turn_back(std::size_t count, double dt, const Lists& from, const
   for (std::size_t i = 0; i < count; ++i) {
     Way way{Vec3(from[0][i], from[1][i], from[2][i]), Vec3(with[0][i], with[1][i], with[2][i]), Vec3(0, 0, 0), dt};
     const Vec3 end(places[0][i], places[1][i], places[2][i]);
-    // The parabola that begins as the particle did and ends where it did: its own way, but for what changes in a step.
+    // The parabola with the particle's start, initial velocity and end: its own path, up to changes of forces in the
+    // step.
     way.acceleration = 2 / (dt * dt) * (end - way.from - dt * way.with);
     Meeting meeting = first_meeting(way);
     if (!meeting.with) continue;
@@ -95,7 +96,7 @@ Colliders::Meeting Colliders::first_meeting(const Way& way) const {
     const auto& solid = std::get<Plane>(plane.shape->solid);
     const shapes::Placed placed = shapes::place(*plane.shape, plane.pose);
     const Vec3 normal = placed.axes * solid.normal;
-    // The plane comes to where it is at the end.
+    // The plane is where it will be at the end of the step.
     const Vec3 moving = plane.velocity_at(way.from);
     const double gap = normal.dot(way.from + way.dt * moving - placed.center) - solid.offset - radius_;
     const double time = falls_to_zero(gap, normal.dot(way.with - moving), normal.dot(way.acceleration), way.dt);
@@ -134,7 +135,7 @@ void Colliders::meet(const Collider& body, const Way& way, Meeting& first) const
     inside = hit->inside;
   }
   if (inside) {
-    // It goes out again where the surface is nearest, seen from the middle of the body.
+    // It leaves where the surface is nearest, seen from the middle of the body.
     const Bounds box = bounds(*body.shape, body.pose);
     const double far = (box.high - box.low).norm() + radius_;
     const Vec3 out = radius_ > 0 ? normal : Vec3(start - body.center);
@@ -162,7 +163,7 @@ bool Colliders::answer(const Meeting& meeting, Way& way) const {
   const Vec3 against = velocity - moving;
   const double closing = -normal.dot(against), pressing = -normal.dot(way.acceleration);
   way.from = place + (meeting.depth + lift_of(place)) * normal;
-  // What comes no faster than it is pressed on within the step comes to rest.
+  // A particle that comes in no faster than it is pressed on within the step comes to rest.
   const bool rests = !(closing > std::max(0.0, pressing) * way.dt);
   Vec3 along = against + closing * normal;
   const double sliding = along.norm();
@@ -174,7 +175,7 @@ bool Colliders::answer(const Meeting& meeting, Way& way) const {
     way.with = moving + along + bounced * normal;
     return way.dt > 0;
   }
-  // Through the rest of the step it slides, and friction slows it as far as it goes.
+  // Through the rest of the step it slides, slowed by friction, at most to rest.
   if (closing < 0) along -= closing * normal;
   const double pressed = closing < 0 ? 0 : std::max(0.0, pressing);
   const Vec3 unslowed = along + way.dt * (way.acceleration + pressed * normal);

@@ -13,7 +13,7 @@ class Colliders {
   Colliders(const World& world, double dt, double radius, double restitution, double friction);
   [[nodiscard]] bool empty() const { return bodies_.empty() && planes_.empty(); }
 
-  /// Changes the ends of ways that lead into bodies.
+  /// Changes the ends of paths that lead into bodies.
   /// @param dt  until the end of the step
   void turn_back(std::size_t count, double dt, const Lists& from, const Lists& with, Lists& places,
                  Lists& speeds) const;
@@ -32,7 +32,7 @@ class Colliders {
   };
   struct Way {
     Vec3 from, with, acceleration;
-    double dt;  ///< left
+    double dt;  ///< time left
 
     [[nodiscard]] Vec3 place(double t) const { return from + t * with + 0.5 * t * t * acceleration; }
     [[nodiscard]] Vec3 velocity(double t) const { return with + t * acceleration; }
@@ -41,13 +41,13 @@ class Colliders {
     const Collider* with = nullptr;
     double time = 0;
     Vec3 normal{0, 1, 0};
-    double depth = 0;  ///< in which it was from the start, m
+    double depth = 0;  ///< overlap from the start, m
   };
 
   [[nodiscard]] bool near(const Bounds& bounds) const;
   [[nodiscard]] Meeting first_meeting(const Way& way) const;
   void meet(const Collider& body, const Way& way, Meeting& first) const;
-  /// @return whether the particle goes on after it
+  /// @return whether the particle moves on after it
   bool answer(const Meeting& meeting, Way& way) const;
 
   std::vector<Collider> bodies_, planes_;

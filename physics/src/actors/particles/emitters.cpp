@@ -17,7 +17,7 @@ namespace tweenfall {
 namespace particles {
 namespace {
 
-/// Numbers for one particle, the same whatever else happens.
+/// Random numbers for one particle, the same whatever else happens.
 /// Source: Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014 (splitmix64).
 class Chance {
  public:
@@ -44,7 +44,7 @@ std::uint64_t mixed(std::uint64_t seed, std::uint64_t with) {
 /// Whole numbers nearer than this share count as reached.
 constexpr double nearly = 1e-9;
 
-/// How many have left until a time within the present stretch.
+/// How many were released until a time within the present stretch.
 template <class Source>
 double reached_until(const Source& source, double time) {
   const double until = std::clamp(time, source.from, std::min(source.to, source.emitter.end));
@@ -57,8 +57,8 @@ std::uint64_t count_until(const Source& source, double time) {
   return reached > 0 ? static_cast<std::uint64_t>(reached + nearly * std::max(1.0, reached)) : 0;
 }
 
-/// When so many have left, within a stretch of time in which that happens. By Newton's steps, halved where they lead
-/// out of what is left.
+/// When this many have been released, within a stretch of time in which that happens. By Newton's method, halving the
+/// interval when a step leaves it.
 template <class Source>
 double time_of(const Source& source, double many, double low, double high) {
   constexpr int most_steps = 80;
@@ -80,7 +80,7 @@ Vec3 on_sphere(double height, double turn) {
   return {across * angle.cos, height, across * angle.sin};
 }
 
-/// A direction within a cone about another, each part of it as likely.
+/// A direction within a cone about another, evenly distributed over the cone.
 Vec3 in_cone(const Vec3& along, double half_angle, double u, double turn) {
   const double length = along.norm();
   if (!(length > 0) || half_angle == 0) return along;
@@ -95,7 +95,7 @@ void require_rates(const Range& rates) {
   state::require(rates.high <= 1e9, "an emitter lets at most 1e9 particles go in a second");
 }
 
-/// Takes the rate's next stretch: a formula has no ends, and its integral needs some.
+/// Takes the rate's next stretch: a formula has no ends, but its integral needs some.
 template <class Source>
 void go_on(Source& source, double from) {
   constexpr double stretch = 600, latest = 1e6;
@@ -197,7 +197,7 @@ void Particles::let_go(double until, const particles::Colliders* colliders) {
       const double high = std::min({until, emitter.end, source.to});
       const std::uint64_t count = particles::count_until(source, high);
       double low = std::max({time_, emitter.start, source.from});
-      // More than there is room for could not stay, and are not looked for one by one.
+      // Particles beyond the limit could not stay, and are not searched for one by one.
       const std::uint64_t most = settings_.most - std::min<std::uint64_t>(settings_.most, size()) + source.number;
       for (; source.number < std::min(count, most); ++source.number) {
         low = particles::time_of(source, static_cast<double>(source.number + 1), low, high);
@@ -218,7 +218,7 @@ void Particles::let_go(double until, const particles::Colliders* colliders) {
     const Source& source = sources_[one.source];
     const Emitter& emitter = source.emitter;
     particles::Chance chance(particles::mixed(source.seed, one.number));
-    // All are drawn, and in this order, whatever the emitter makes of them.
+    // All are drawn, in this order, whatever the emitter uses.
     const double life = chance.unit(), speed = chance.unit(), cone = chance.unit(), turn = chance.unit();
     const double height = chance.unit(), around = chance.unit(), out = chance.unit();
     const Sample<Vec3> place = emitter.position.sample(one.time, Side::in);

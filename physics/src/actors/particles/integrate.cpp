@@ -4,14 +4,14 @@ namespace tweenfall::particles {
 
 namespace {
 
-/// Room for the states of a step, kept from block to block.
+/// Memory for the states of a step, kept from block to block.
 struct Stages {
   std::array<Lists, 4> rates, accelerations;
   Lists places, speeds;
   Pulls start, end;
 };
 
-/// Accelerations with all drag.
+/// Accelerations including all drag.
 void accelerate(const Pulling& pulling, std::size_t count, const Lists& places, const Lists& speeds, double time,
                 Instant instant, Pulls& pulls, Lists& out) {
   find_pulls(pulling, count, places, speeds, time, instant, pulls);
@@ -31,7 +31,7 @@ void sum(std::size_t count, const Lists& values, double h, const Lists& rates, L
     for (std::size_t i = 0; i < count; ++i) out[axis][i] = values[axis][i] + h * rates[axis][i];
 }
 
-/// As bodies go through it: exact under a constant force, drag taken implicitly, the force at both ends.
+/// The integrator of bodies: exact under a constant force, drag taken implicitly, the force at both ends.
 void exact_quadratic(const Pulling& pulling, std::size_t count, double time, double dt, Stages& stages, Lists& places,
                      Lists& speeds) {
   find_pulls(pulling, count, places, speeds, time, Instant::start, stages.start);
@@ -45,7 +45,7 @@ void exact_quadratic(const Pulling& pulling, std::size_t count, double time, dou
         stages.speeds[axis][i] = speeds[axis][i] + a * dt;
       }
     find_pulls(pulling, count, stages.places, stages.speeds, time + dt, Instant::end, stages.end);
-    // What a medium carries along is that of the start, as its drag is.
+    // What a medium carries along is taken at the start, like its drag.
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (std::size_t i = 0; i < count; ++i)
         stages.end.acceleration[axis][i] += start.carried[axis][i] - stages.end.carried[axis][i];
@@ -87,7 +87,7 @@ void velocity_verlet(const Pulling& pulling, std::size_t count, double time, dou
   add(count, 0.5 * dt, second, speeds);
 }
 
-/// Two stages: the second `share` of the step on, weighed by `weight`.
+/// Two stages: the second at `share` of the step, with weight `weight`.
 void two_stages(const Pulling& pulling, std::size_t count, double time, double dt, double share, double weight,
                 Stages& stages, Lists& places, Lists& speeds) {
   Lists &first = stages.accelerations[0], &second = stages.accelerations[1];

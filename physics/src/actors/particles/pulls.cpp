@@ -13,7 +13,7 @@ using One = std::array<double, most_together>;
 /// A medium with its drag on all of them.
 struct Medium {
   Vec3 velocity;
-  double linear, quadratic;  ///< over the mass, 1/s and 1/m
+  double linear, quadratic;  ///< divided by the mass, 1/s and 1/m
 };
 
 void add_medium(const Medium& medium, std::size_t count, const Lists& speeds, Pulls& pulls) {
@@ -81,7 +81,7 @@ struct Adding {
   void operator()(const Field& kind) const {
     each([&](const Vec3& place, const Vec3& velocity) { return kind(pulling.mass, place, velocity, time); });
   }
-  // Of bodies alone
+  // Only for bodies
   template <class Kind>
   void operator()(const Kind&) const {}
 

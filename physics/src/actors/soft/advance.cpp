@@ -19,8 +19,8 @@ namespace soft {
 namespace {
 
 constexpr double most_sub_steps = 1000;
-/// How often soft bodies that hold the same one are asked anew, and which part of the energy of what they give may
-/// change when they are no more.
+/// How often soft bodies that hold the same body are solved again, and which part of the energy of what they give may
+/// still change when this ends.
 constexpr int most_rounds = 12;
 constexpr double agreed = 1e-10;
 
@@ -34,7 +34,7 @@ Vec3 mean_velocity(const SoftBody& body) {
   return momentum / mass;
 }
 
-/// Of all edges that are stretched too far the one that is by most; it goes alone, and takes the load off its
+/// Of all edges that are stretched too far, tears the most stretched; it goes alone, and takes the load off its
 /// neighbors.
 void tear_one(SoftBody& body, double time) {
   const SoftSettings& made = *body.made;
@@ -57,7 +57,7 @@ void tear_one(SoftBody& body, double time) {
 /// One soft body in a step.
 class Course {
  public:
-  /// @param began  when the step did, s
+  /// @param began  start time of the step, s
   Course(SoftBody& body, std::vector<state::Body>& bodies, Partners& partners, const WorldSettings& settings,
          const std::vector<Blowing>& winds, double began, double dt)
       : body_(body), bodies_(bodies), partners_(partners), settings_(settings), winds_(winds), began_(began), dt_(dt) {
@@ -71,7 +71,7 @@ class Course {
     }
   }
 
-  /// A sub-step, but for what other soft bodies do in it.
+  /// A sub-step, without the effect of other soft bodies.
   void go(double time, double h, bool backward) {
     find_held(time);
     blow(body_, winds_, h);
@@ -85,7 +85,7 @@ class Course {
     if (thick()) keep_apart(as_thick(), partners_, h, backward, settings_.push_out_speed);
   }
 
-  /// The same, so that it can be done over.
+  /// The same, so that it can be repeated.
   void go_first(double time, double h, bool backward) {
     first_places_ = body_.positions;
     first_velocities_ = body_.velocities;
@@ -93,7 +93,8 @@ class Course {
     for (std::uint32_t p = 0; p < gifts_.size(); ++p)
       if (gives_to(p)) ++partners_[p].givers;
   }
-  /// Over again, beside what others have given meanwhile. @return how much of what it gives has changed, and is, J s^2
+  /// Repeats it with what others have given meanwhile. @return how much of what it gives has changed, and how much that
+  /// is, J s^2
   std::pair<double, double> go_again(double time, double h, bool backward) {
     body_.positions = first_places_;
     body_.velocities = first_velocities_;
@@ -128,8 +129,8 @@ class Course {
     }
     const bool touches = std::ranges::any_of(contacts_, [](const NodeContact& contact) { return contact.pressed > 0; });
     if (held_.empty() && !touches && !pushed_ && !among) {
-      // Backward Euler takes what falls too far by half of a sub-step's gain: what nothing holds falls as a whole as
-      // it must.
+      // Backward Euler lets things fall too far by half of a sub-step's gain: correct this for a body that nothing
+      // holds, as a whole.
       const Vec3 early = 0.5 * h * (mean_velocity(body_) - was_);
       for (Vec3& place : body_.positions) place -= early;
     }
@@ -137,7 +138,7 @@ class Course {
     tear_one(body_, began_ + time);
   }
 
-  /// What is pinned ends exactly where it is held.
+  /// Pinned nodes end exactly where they are held.
   void finish() {
     for (PinState& state : body_.pins) {
       if (state.pin.body == BodyId{}) {
@@ -168,7 +169,7 @@ class Course {
     return gifts_[partner].moved != Vec3::Zero() || gifts_[partner].turned != Vec3::Zero();
   }
 
-  /// What points out of a plane it bears.
+  /// The plane bears what points out of it.
   void stay_in_plane() {
     if (settings_.plane == WorldPlane::none) return;
     const int normal = flat::Axes::of(settings_.plane).normal;
@@ -211,14 +212,14 @@ class Course {
   std::vector<Vec3> places_;                ///< of all nodes, before a sub-step
   std::vector<Held> held_;
   std::vector<NodeContact> contacts_;
-  std::vector<Vec3> first_places_, first_velocities_;  ///< before a sub-step that may be done over
+  std::vector<Vec3> first_places_, first_velocities_;  ///< before a sub-step that may be repeated
   std::vector<Gift> gifts_;                            ///< in it, by partner
-  Vec3 was_{0, 0, 0};                                  ///< mean velocity before the sub-step, of what nothing holds
-  bool pushed_ = false;                                ///< between its nodes, in the sub-step
+  Vec3 was_{0, 0, 0};                                  ///< mean velocity before the sub-step, if nothing holds it
+  bool pushed_ = false;                                ///< a contact between its nodes pushed it in the sub-step
 };
 
-/// A sub-step of all. Those that hold or bear the same body are asked in turn until they agree on where it goes: what
-/// the first gives it knows nothing of what the last will bear.
+/// A sub-step of all soft bodies. Those that hold the same body are solved in turn until they agree on where it goes:
+/// what the first gives it does not account for the load of the last.
 void go_together(std::vector<Course>& courses, double time, double h, bool backward) {
   if (courses.size() == 1) return courses.front().go(time, h, backward);
   for (Course& course : courses) course.go_first(time, h, backward);
@@ -234,7 +235,7 @@ void go_together(std::vector<Course>& courses, double time, double h, bool backw
   }
 }
 
-/// Soft bodies of which any two may meet, by their numbers.
+/// Indices of the soft bodies that may meet another one.
 std::vector<std::size_t> meeting_each_other(const std::vector<const SoftBody*>& bodies) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < bodies.size(); ++i)

@@ -18,7 +18,7 @@ std::vector<Blowing> winds_at(const std::vector<forces::NumberedForce>& forces, 
 void blow(SoftBody& body, const std::vector<Blowing>& winds, double h) {
   const SoftSettings& made = *body.made;
   if (!(made.air_drag > 0) || winds.empty()) return;
-  // Each face has its part of what its corners weigh.
+  // Each face has its share of the mass of its corners.
   std::vector<int> faces(body.positions.size(), 0);
   for (std::size_t i = 0; i < made.triangles.size(); ++i)
     for (const std::uint32_t corner : made.triangles[i]) faces[corner] += body.gone.triangles[i] != 0 ? 0 : 1;
@@ -33,7 +33,7 @@ void blow(SoftBody& body, const std::vector<Blowing>& winds, double h) {
     const Vec3 velocity = (body.velocities[a] + body.velocities[b] + body.velocities[c]) / 3;
     double mass = 0;
     for (const std::uint32_t corner : made.triangles[i]) mass += made.masses[corner] / faces[corner];
-    double goes = normal.dot(velocity);  // of the face along its normal, as one wind after another leaves it
+    double goes = normal.dot(velocity);  // velocity of the face along its normal, updated wind after wind
     for (const Blowing& wind : winds) {
       const double against = normal.dot(wind.velocity) - goes, speed = std::abs(against);
       // As at the end of the step, so that none overshoots: left + drag h left^2 / mass = speed.

@@ -10,14 +10,14 @@ namespace tweenfall::soft {
 /// A wind that presses on faces.
 struct Blowing {
   Vec3 velocity{0, 0, 0};  ///< m/s
-  double density = 0;      ///< of the air times the strength of the wind, kg/m^3
+  double density = 0;      ///< of the air, times the strength of the wind, kg/m^3
 };
 
-/// The winds that name no bodies, as they are at a time.
+/// The winds that name no bodies, at a time.
 [[nodiscard]] std::vector<Blowing> winds_at(const std::vector<forces::NumberedForce>& forces, double time);
 
-/// Gives the nodes of each face the velocity that winds give it in h seconds: along the face's normal, and never past
-/// that of the wind.
+/// Adds to the nodes of each face the velocity that winds give it in h seconds: along the face's normal, and never
+/// beyond that of the wind.
 void blow(SoftBody& body, const std::vector<Blowing>& winds, double h);
 
 }  // namespace tweenfall::soft

@@ -7,36 +7,36 @@
 
 namespace tweenfall::soft {
 
-/// A symmetric matrix of blocks of three by three, of which only those near the diagonal are not zero: that of a chain,
-/// whose nodes are joined to those of neighboring numbers. It is solved in a time that grows with its nodes alone,
-/// where conjugate gradients need a step for each of them until one end has heard of the other.
+/// A symmetric matrix of three-by-three blocks, of which only those near the diagonal are not zero: that of a chain,
+/// whose joined nodes have neighboring numbers. It is solved in a time proportional to its nodes,
+/// while conjugate gradients need a step per node until both ends affect each other.
 class ChainFactor {
  public:
-  /// How far apart the numbers of nodes are that anything joins; 0 where that is too far.
+  /// The greatest difference between the numbers of joined nodes; 0 if it is too large.
   [[nodiscard]] static std::size_t reach_of(const SoftSettings& made);
   static constexpr std::size_t most_reach = 3;
 
-  /// Begins a matrix of zeros. @param reach  1 to `most_reach`
+  /// Starts with a matrix of zeros. @param reach  1 to `most_reach`
   void clear(std::size_t nodes, std::size_t reach);
-  /// @param i, j  their blocks are added on both sides of the diagonal; each pair is told once
+  /// @param i, j  their blocks are added on both sides of the diagonal; each pair is given once
   void add(std::size_t i, std::size_t j, const Mat3& block);
-  /// As it was filled in; zero for those farther apart than it reaches.
+  /// As it was filled in; zero for blocks farther apart than `reach`.
   [[nodiscard]] Mat3 block(std::size_t i, std::size_t j) const;
   [[nodiscard]] std::size_t reach() const { return band_ / 3; }
-  /// Takes a node out: it stays where it is.
+  /// Removes a node from the unknowns: it stays where it is.
   void fix(std::size_t node);
 
   /// As L D L'. @return whether it is definite
   [[nodiscard]] bool factor();
-  /// @param values  the first of them, one per node, become the solution for them
+  /// @param values  the first of them, one per node, are replaced by their solution
   void solve(std::vector<Vec3>& values) const;
 
  private:
   [[nodiscard]] double& at(std::size_t row, std::size_t column) { return rows_[row * width_ + column + band_ - row]; }
 
   std::size_t nodes_ = 0, size_ = 0;
-  std::size_t band_ = 0, width_ = 1;  ///< numbers of a row before its diagonal, and with it
-  std::vector<double> rows_;          ///< by row, those up to the diagonal
+  std::size_t band_ = 0, width_ = 1;  ///< numbers of a row before its diagonal, and including it
+  std::vector<double> rows_;          ///< by row, up to the diagonal
 };
 
 }  // namespace tweenfall::soft

@@ -35,7 +35,7 @@ void ChainAndHolders::add_to_border(std::size_t first, const Lever& of_first, co
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 2; ++j) {
       const std::size_t row = 2 * first + i, column = 2 * second + j;
-      // One and the same node: the other half is this one's image.
+      // The same node twice: the other half is this one's mirror image.
       if (!both && row < column) continue;
       border_.add(row, column, both && row == column ? Mat3(parts[i][j] + parts[i][j].transpose()) : parts[i][j]);
     }

@@ -22,13 +22,13 @@ class Links {
   [[nodiscard]] bool sound() const { return sound_; }
   [[nodiscard]] std::size_t nodes() const { return of_.size(); }
   [[nodiscard]] bool ends_at(std::uint32_t node) const { return of_[node][0] != none && of_[node][1] == none; }
-  /// An edge that no chain has yet; none where all have one.
+  /// An edge that is in no chain yet; none if all are.
   [[nodiscard]] std::uint32_t left_at(std::uint32_t node) const {
     for (const std::uint32_t edge : of_[node])
       if (edge != none && seen_[edge] == 0) return edge;
     return none;
   }
-  /// Along all that no chain has yet, from a node on.
+  /// The chain of all remaining edges, starting at a node.
   [[nodiscard]] Chain from(std::uint32_t node) {
     Chain chain;
     chain.nodes.push_back(node);
@@ -66,7 +66,7 @@ std::vector<Chain> chains_of(const SoftBody& body) {
   if (!links.sound()) return chains;
   for (std::uint32_t node = 0; node < links.nodes(); ++node)
     if (links.ends_at(node) && links.left_at(node) != none) chains.push_back(links.from(node));
-  // What is left are rings.
+  // Only rings are left.
   for (std::uint32_t node = 0; node < links.nodes(); ++node) {
     if (links.left_at(node) == none) continue;
     Chain ring = links.from(node), last;

@@ -20,7 +20,7 @@ std::string numbered(const char* what, std::size_t index) {
   return std::string(what) + " " + std::to_string(index);
 }
 
-/// Of what resists: infinite is allowed where there are constraints.
+/// Stiffness may be infinite where constraints are used.
 void require_stiffness(double stiffness, const std::string& whose, SoftSolver solver) {
   require(stiffness > 0, whose + " must have a stiffness above 0, but has " + number_text(stiffness));
   if (std::isinf(stiffness))

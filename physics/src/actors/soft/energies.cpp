@@ -51,7 +51,7 @@ void Energies::take_edges(const std::vector<Vec3>& x, const std::vector<Vec3>& v
     const SoftEdge& edge = made_.edges[i];
     const Vec3 between = p_[edge.a] - p_[edge.b], before = x[edge.a] - x[edge.b];
     const double length = between.norm(), length_before = before.norm();
-    // Of ends at one place there is no direction.
+    // Two ends at the same place have no direction.
     const Vec3 normal = length > 0 ? Vec3(between / length) : Vec3(0, 0, 0);
     const Vec3 damped_normal = length_before > 0 ? Vec3(before / length_before) : Vec3(0, 0, 0);
     const double pull = edge.stiffness * (length - *edge.length);

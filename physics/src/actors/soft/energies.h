@@ -7,21 +7,21 @@
 
 namespace tweenfall::soft {
 
-/// The elastic energy of all that is of finite stiffness, as the nodes are, J.
+/// The elastic energy of everything of finite stiffness, at the nodes' present positions, J.
 [[nodiscard]] double elastic_energy(const SoftBody& body);
-[[nodiscard]] double volume_energy(const SoftBody& body);  ///< its part of that
+[[nodiscard]] double volume_energy(const SoftBody& body);  ///< the part of it from volumes
 
-/// The elastic energy of what a soft body is made of, at x + h v, with what damping takes; its derivative by v; and its
+/// The elastic energy of a soft body at x + h v, plus the loss by damping; its derivative by v; and its
 /// second derivative, made definite.
 class Energies {
  public:
   Energies(const SoftBody& body, double h) : body_(body), made_(*body.made), h_(h) {}
 
-  /// J; the other functions are about the velocities that `at` was last asked for.
+  /// J; the other functions refer to the velocities of the last call of `at`.
   [[nodiscard]] double at(const std::vector<Vec3>& x, const std::vector<Vec3>& v);
   void add_gradient(std::vector<Vec3>& gradient) const;
   void add_product(const std::vector<Vec3>& change, std::vector<Vec3>& out) const;
-  void add_blocks(std::vector<Mat3>& blocks) const;  ///< those on the diagonal alone
+  void add_blocks(std::vector<Mat3>& blocks) const;  ///< only those on the diagonal
   void add_all_blocks(ChainFactor& matrix) const;
 
  private:
@@ -30,7 +30,7 @@ class Energies {
     Vec3 normal;         ///< from b to a
     double pull;         ///< N
     double along;        ///< stiffness, N/m
-    double across;       ///< of turning it, N/m; >= 0
+    double across;       ///< against turning it, N/m; >= 0
     Vec3 damped_normal;  ///< at the start
     double damped;       ///< damping times speed, N
     double damping;      ///< N s/m
@@ -39,7 +39,7 @@ class Energies {
     const SoftBend* bend;
     Vec3 off;
   };
-  /// Something whose energy is stiffness / 2 times the square of one number.
+  /// A part whose energy is stiffness / 2 times the square of one number.
   struct Amount {
     double stiffness, off;
     std::vector<std::pair<std::uint32_t, Vec3>> gradients;

@@ -1,5 +1,5 @@
 // Constraints with compliance. A constraint C(x) with energy k C^2 / 2 moves the nodes along its gradients, each by its
-// share of the inverse masses w, so far that what is left of C is held by the compliance 1 / k:
+// share of the inverse masses w, so far that the compliance 1 / k holds what is left of C:
 //
 //   change of the multiplier = (-C - a multiplier) / (sum of w |gradient|^2 + a),  a = 1 / (k h^2)
 //
@@ -21,8 +21,8 @@ namespace tweenfall::soft {
 
 namespace {
 
-/// Part of what an edge of a chain moves by which it gives way: what is straight between two that hold it has no way
-/// left in which one edge could be mended alone.
+/// Part of an edge's own effect by which an edge of a chain yields: a straight chain between two fixed ends leaves no
+/// way in which one edge could be corrected alone.
 constexpr double yielding = 1e-7;
 
 class Positions {
@@ -31,7 +31,8 @@ class Positions {
 
   void solve() {
     predict();
-    // There and back: one way alone takes too much from what is stiff where many edges meet, and throws it ever faster.
+    // There and back: one direction alone takes too much energy from stiff parts where many edges meet, and speeds them
+    // up.
     chains_ = chains_of(step_.body);
     find_loads();
     for (int i = 0; i < made_.iterations; ++i) {
@@ -46,7 +47,7 @@ class Positions {
     hold_together();
     for (Held& held : step_.held) {
       if (held.partner != Held::nobody) continue;
-      // What held it has made its momentum what it is: against what it would have been, and what its edges gave.
+      // The holder gave it the difference to the momentum it would have had, including what its edges gave.
       const double mass = made_.masses[held.node] * (1 + step_.h * made_.linear_damping);
       held.pushed += pull_[held.node] - mass * (held.place - free_[held.node]);
       body.velocities[held.node] = held.velocity;
@@ -55,7 +56,7 @@ class Positions {
 
  private:
   void predict() {
-    // A drag of m c v at the end of the sub-step is as if the mass were by c h larger, and fell that much less.
+    // A drag of m c v at the end of the sub-step acts as if the mass were larger by c h, and fell that much less.
     const double h = step_.h, kept = 1 / (1 + h * made_.linear_damping);
     const std::size_t count = x_.size();
     p_.resize(count);
@@ -77,8 +78,9 @@ class Positions {
     enclosure_multipliers_.assign(made_.enclosures.size(), 0);
   }
 
-  /// A sub-step in which nodes pass by their neighbors many times over tells nothing of what holds them together, and
-  /// would throw them ever faster: against its center of mass nothing goes farther in one than all edges are long.
+  /// A sub-step in which nodes pass their neighbors many times over says nothing of what holds them together, and
+  /// would throw them ever faster: relative to its center of mass, nothing moves farther in one than the sum of all
+  /// edges.
   void hold_together() {
     if (made_.edges.empty()) return;
     std::vector<Vec3>& v = step_.body.velocities;
@@ -139,8 +141,8 @@ class Positions {
     push(edge.b, -change * normal);
   }
 
-  /// What chains are pinned to and move goes with them as if it were a part of the node; of a body with several pins
-  /// each has its part.
+  /// Movable bodies that chains are pinned to move with them as if they were part of the node; a body with several pins
+  /// is divided among them.
   void find_loads() {
     loads_.clear();
     if (chains_.empty()) return;
@@ -159,7 +161,7 @@ class Positions {
     return partner.inverse_mass * Mat3::Identity() - lever * partner.inverse_inertia * lever;
   }
   [[nodiscard]] bool is_loaded(std::uint32_t node) const { return !loads_.empty() && loads_[node].held; }
-  /// What a push moves a node of a chain by.
+  /// How far a push moves a node of a chain.
   [[nodiscard]] Vec3 moved_by(std::uint32_t node, const Vec3& push) const {
     return is_loaded(node) ? Vec3(loads_[node].give * push) : Vec3(weight_[node] * push);
   }
@@ -173,8 +175,8 @@ class Positions {
     load.held->pushed += on;
   }
 
-  /// Whether nodes are led farther apart than all that is between them is long and may ever be: no solution is there to
-  /// be found, and each edge does what it can.
+  /// Whether nodes are led farther apart than everything between them can stretch: then there is no solution,
+  /// and each edge does what it can.
   [[nodiscard]] bool is_overstretched(const Chain& chain) const {
     const std::size_t no_node = chain.nodes.size();
     std::size_t led = no_node;
@@ -192,12 +194,12 @@ class Positions {
     return false;
   }
 
-  /// All edges of a chain at once, by the changes d of their multipliers:
+  /// Solves all edges of a chain at once, for the changes d of their multipliers:
   ///
   ///   sum over k of (gradient of i) . w (gradient of k) d_k + a_i d_i = -C_i - a_i multiplier_i
   ///
-  /// Each edge shares nodes with its neighbors alone, so that the matrix has three diagonals. One by one its edges
-  /// would hear of each other over as many passes as there are links.
+  /// Each edge shares nodes only with its neighbors, so that the matrix is tridiagonal. Solved one by one, edges
+  /// would need as many passes as there are links to affect each other.
   void meet_chain(const Chain& chain) {
     if (is_overstretched(chain)) {
       for (const std::uint32_t edge : chain.edges) meet_edge(edge);
@@ -311,7 +313,7 @@ class Positions {
     contact.pressed += change;
     push(contact.node, change * normal);
     partner.give(-change * normal, contact.arm, step_.h);
-    // What slides is held back by at most friction times that.
+    // A sliding node is held back by at most friction times that.
     const Vec3 carried = contact.carried + partner.moved + partner.turned.cross(contact.arm);
     Vec3 slid = p_[contact.node] - x_[contact.node] - carried;
     slid -= normal.dot(slid) * normal;
@@ -328,20 +330,20 @@ class Positions {
   /// A node that something hangs on.
   struct Load {
     Held* held = nullptr;
-    Mat3 give = Mat3::Zero();  ///< of both together, 1/kg
+    Mat3 give = Mat3::Zero();  ///< inverse mass of both together, 1/kg
   };
 
   SubStep& step_;
   const SoftSettings& made_;
   std::vector<Vec3>& x_;        ///< at the start
   std::vector<Vec3> p_;         ///< at the end
-  std::vector<Vec3> free_;      ///< at the end, if nothing acted but gravity
+  std::vector<Vec3> free_;      ///< at the end, if only gravity acted
   std::vector<Vec3> pull_;      ///< by constraints, kg m
-  std::vector<double> weight_;  ///< inverse masses; 0 of what is led
+  std::vector<double> weight_;  ///< inverse masses; 0 of led nodes
   std::vector<double> edge_multipliers_, solid_multipliers_, enclosure_multipliers_;
   std::vector<Vec3> bend_multipliers_;
   std::vector<Chain> chains_;
-  std::vector<Load> loads_;  ///< by node; empty where nothing hangs on any
+  std::vector<Load> loads_;  ///< by node; empty if nothing hangs on any
   std::vector<Vec3> normals_;
   std::vector<double> diagonal_, beside_, changes_;
   std::vector<Vec3> gradients_;

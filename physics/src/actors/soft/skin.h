@@ -4,7 +4,7 @@
 
 namespace tweenfall::soft {
 
-/// Triangles as cloth: masses by area, edges and hinges. @throws std::invalid_argument for what has no area
+/// Triangles as cloth: masses by area, edges and hinges. @throws std::invalid_argument for triangles without area
 [[nodiscard]] SoftSettings skin(std::vector<Vec3> positions, std::vector<std::array<std::uint32_t, 3>> triangles,
                                 const ClothMaterial& material);
 

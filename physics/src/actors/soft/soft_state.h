@@ -7,15 +7,15 @@
 
 namespace tweenfall::soft {
 
-/// A pin as it goes from step to step.
+/// A pin as it is kept from step to step.
 struct PinState {
   SoftPin pin;
-  Vec3 target{0, 0, 0};    ///< of one to the world: where it shall be at the end of the step, m
+  Vec3 target{0, 0, 0};    ///< of a pin to the world: where it must be at the end of the step, m
   Vec3 velocity{0, 0, 0};  ///< there, m/s
-  Vec3 force{0, 0, 0};     ///< on what holds it, mean of the last step, N
+  Vec3 force{0, 0, 0};     ///< on what holds it, mean over the last step, N
 };
 
-/// What the tears of a soft body have taken along; follows from which edges are torn.
+/// The parts that torn edges took with them; follows from which edges are torn.
 struct Gone {
   std::vector<char> bends, tetrahedra, enclosures, triangles;
 };
@@ -24,7 +24,7 @@ struct Gone {
 struct SoftBody {
   bool alive = false;
   std::uint32_t generation = 0;
-  std::shared_ptr<const SoftSettings> made;  ///< with lengths and volumes at rest; never null while alive
+  std::shared_ptr<const SoftSettings> made;  ///< with rest lengths and rest volumes; never null while alive
   std::vector<Vec3> positions, velocities;
   std::vector<char> torn;      ///< by edge
   std::vector<PinState> pins;  ///< by node
@@ -35,11 +35,11 @@ struct SoftBody {
   [[nodiscard]] PinState* pin_of(std::uint32_t node);
 };
 
-/// The settings with what is at rest filled in, apart from pins. @throws std::invalid_argument for what makes none
+/// The settings with rest lengths and volumes filled in, apart from pins. @throws std::invalid_argument if impossible
 [[nodiscard]] SoftSettings checked(const SoftSettings& settings);
-/// The state that a soft body begins with, without pins.
+/// The initial state of a soft body, without pins.
 [[nodiscard]] SoftBody begun(SoftSettings checked);
-/// Finds again what the torn edges have taken along.
+/// Recomputes what the torn edges took with them.
 void find_gone(SoftBody& body);
 void tear(SoftBody& body, std::size_t edge);
 
@@ -47,7 +47,7 @@ void tear(SoftBody& body, std::size_t edge);
   return (b - a).dot((c - a).cross(d - a)) / 6;
 }
 
-/// What a surface encloses, about its first corner: far from the origin nothing is lost.
+/// The volume inside a surface, relative to its first corner, so that nothing is lost far from the origin.
 [[nodiscard]] double enclosed_by(const std::vector<std::array<std::uint32_t, 3>>& triangles,
                                  const std::vector<Vec3>& positions);
 

@@ -15,7 +15,7 @@ namespace tweenfall {
 
 namespace soft {
 
-/// What these functions may see and change of a world.
+/// Access of these functions to a world.
 class Inside {
  public:
   [[nodiscard]] static const World::Implementation& of(const World& world) { return world.inside(); }
@@ -41,7 +41,7 @@ void require_node(const SoftBody& body, std::uint32_t node) {
                                                    std::to_string(body.positions.size()));
 }
 
-/// Adds a pin, or puts it in place of another. The node comes to where it is held.
+/// Adds a pin, or replaces the node's pin. The node moves to where it is held.
 template <class Implementation>
 void enter_pin(SoftBody& body, Implementation& world, SoftPin pin) {
   require_node(body, pin.node);

@@ -1,11 +1,11 @@
 // Backward Euler: the velocities v at the end of the sub-step are those at which
 //
-//   1/2 (v - v_free)' M (v - v_free) + V(x + h v) + what damping takes
+//   1/2 (v - v_free)' M (v - v_free) + V(x + h v) + loss by damping
 //
-// is least, which Newton's method finds; v_free is what gravity alone leads to. Each of its linear systems,
-// (M + h^2 K + h D) change = -gradient, is solved by conjugate gradients, which the matrix of a chain steers as a
-// whole, and else its blocks. K is the second derivative of the energy without what would make it indefinite: an edge
-// under pressure does not push its ends aside.
+// is least, found by Newton's method; v_free is what gravity alone leads to. Each of its linear systems,
+// (M + h^2 K + h D) change = -gradient, is solved by conjugate gradients; the preconditioner is the matrix of the chain
+// as a whole, or else the blocks. K is the second derivative of the energy without what would make it indefinite: an
+// edge under pressure does not push its ends aside.
 //
 // Sources: Baraff, Witkin, Large Steps in Cloth Simulation, 1998; Choi, Ko, Stable but Responsive Cloth, 2002 (the edge
 // under pressure); Martin, Thomaszewski, Grinspun, Gross, Example-Based Elastic Materials, 2011, equation 6 (as what is
@@ -24,7 +24,7 @@ namespace tweenfall::soft {
 namespace {
 
 constexpr int most_newton_steps = 12, most_halvings = 12, most_ventured = 2;
-/// Against the mass that a contact moves in a sub-step: how stiff it is.
+/// Stiffness of a contact, relative to the mass that it moves in a sub-step.
 constexpr double contact_stiffness = 1e4;
 
 /// Velocities of all nodes, and then of the bodies: linear and angular ones in turn.
@@ -65,7 +65,7 @@ class Springs {
   [[nodiscard]] std::size_t linear_of(std::uint32_t partner) const { return nodes_ + 2 * std::size_t{partner}; }
 
   void begin() {
-    // A drag of m c v at the end of the sub-step is as if the mass were by c h larger, and fell that much less.
+    // A drag of m c v at the end of the sub-step acts as if the mass were larger by c h, and fell that much less.
     const double h = step_.h, kept = 1 / (1 + h * made_.linear_damping);
     for (const double mass : made_.masses) mass_.push_back(mass / kept);
     const std::size_t all = nodes_ + 2 * step_.partners.size();
@@ -87,7 +87,7 @@ class Springs {
     lead(v_);
   }
 
-  /// Gives nodes that are held the velocities of what holds them.
+  /// Gives held nodes the velocities of their holders.
   void lead(Rates& v) const {
     for (const Held& held : step_.held) {
       Vec3 at = (held.place - x_[held.node]) / step_.h;
@@ -98,7 +98,7 @@ class Springs {
   [[nodiscard]] Vec3 follow(const Rates& v, const Held& held) const {
     return v[linear_of(held.partner)] + v[linear_of(held.partner) + 1].cross(held.arm);
   }
-  /// What acts on nodes that are held acts on what holds them.
+  /// Passes forces on held nodes on to their holders.
   void hand_on(Rates& forces) const {
     for (const Held& held : step_.held) {
       if (held.partner != Held::nobody) {
@@ -119,7 +119,7 @@ class Springs {
     return contact.normal.dot(x_[contact.node] + step_.h * v[contact.node] - surface) - made_.radius - contact.least;
   }
 
-  /// What is to be least.
+  /// The quantity to minimize.
   [[nodiscard]] double measure(const Rates& v) {
     double sum = 0;
     for (std::size_t i = 0; i < nodes_; ++i) sum += 0.5 * mass_[i] * (v[i] - free_[i]).squaredNorm();
@@ -185,7 +185,7 @@ class Springs {
     hand_on(out);
   }
 
-  /// The inverse of its blocks of three.
+  /// The inverse of its three-by-three blocks.
   void find_blocks() {
     blocks_.assign(v_.size(), Mat3::Zero());
     for (std::size_t i = 0; i < nodes_; ++i) blocks_[i] = mass_[i] * Mat3::Identity();
@@ -215,7 +215,7 @@ class Springs {
     for (Mat3& block : blocks_) block = block.inverse().eval();
   }
 
-  /// All of the nodes together, with what moves them.
+  /// Factors the matrix of all nodes together, with their holders.
   [[nodiscard]] bool factor_chain() {
     ChainFactor& chain = all_.chain();
     chain.clear(nodes_, reach_);
@@ -282,8 +282,8 @@ class Springs {
     const bool last = largest <= 1e-9 * fastest + 1e-11;
     if (ventured_ == 0) trusted_ = {v_, change_, now};
     if (take(v_, change_, 1)) return !last;
-    // Whoever goes straight along what turns stiff edges stretches them: what is least lies in a narrow valley that
-    // bends. A step or two more lead back into it, farther on; if not, a shorter one from where it was left.
+    // A straight step across stiff edges that turn stretches them: the minimum lies in a narrow valley that bends. A
+    // step or two more lead back into it, farther on; if not, a shorter step from where it was left does.
     if (ventured_ < most_ventured && !last) {
       ++ventured_;
       v_ = trial_;
@@ -299,7 +299,7 @@ class Springs {
       if (take(trusted_.v, trusted_.change, part)) return true;
     return false;
   }
-  /// Whether what lies there is less than at the last place that was trusted.
+  /// Whether the quantity there is less than at the last place that was trusted.
   bool take(const Rates& from, const Rates& change, double part) {
     trial_ = from;
     for (std::size_t k = 0; k < from.size(); ++k) trial_[k] += part * change[k];
@@ -317,7 +317,7 @@ class Springs {
     return false;
   }
 
-  /// What nothing holds or touches keeps its momentum, whatever is left undone inside.
+  /// A body that nothing holds or touches keeps its momentum, whatever error remains inside.
   void keep_momentum() {
     Vec3 off(0, 0, 0);
     double mass = 0;
@@ -359,7 +359,7 @@ class Springs {
     for (std::size_t i = 0; i < nodes_; ++i) step_.body.velocities[i] = v_[i];
   }
 
-  /// Friction, as far as the push along the normal bears it.
+  /// Friction, limited by the push along the normal.
   void rub(NodeContact& contact) {
     Partner& partner = step_.partners[contact.partner];
     const Vec3 carried = contact.carried + partner.moved + partner.turned.cross(contact.arm);
@@ -387,7 +387,7 @@ class Springs {
   std::size_t reach_;
   ChainAndHolders all_;
   bool chained_ = false;
-  /// Where Newton's steps last came to less than before, and where they went from there.
+  /// The last position of Newton's method that was an improvement, and the step from there.
   struct {
     Rates v, change;
     double measure = 0;

@@ -17,7 +17,7 @@ bool weighs(const SoftBend& bend, std::uint32_t node) {
   return false;
 }
 
-/// What lies on the edge between two nodes goes with it.
+/// Parts that lie on the edge between two nodes are removed with it.
 void take_along(SoftBody& body, std::uint32_t a, std::uint32_t b) {
   const SoftSettings& made = *body.made;
   for (std::size_t i = 0; i < made.bends.size(); ++i)

@@ -24,8 +24,8 @@ double cotangent(const Vec3& a, const Vec3& b) {
   return a.dot(b) / a.cross(b).norm();
 }
 
-/// Of an edge 01 with triangles 012 and 103. A third of what the source has: so a sheet rolled to a cylinder, which is
-/// how cloth bends, holds half of its bending over the square of the radius; the source's has that of a sphere.
+/// For an edge 01 with triangles 012 and 103. It is a third of that in the source: so a sheet rolled to a cylinder,
+/// which is how cloth bends, holds half of its bending over the square of the radius; in the source, a sphere does.
 /// Source: Bergou et al., 2006, section 3.
 SoftBend hinge(const std::vector<Vec3>& x, const Ends& ends, const Hem& hem, double bending) {
   const auto [n0, n1] = ends;

@@ -25,7 +25,7 @@ double turn_of_links(int links, double ends_over_link) {
   return 0.5 * (low + high);
 }
 
-/// Down, as far as that is across the rope.
+/// The part of `down` that is perpendicular to the rope.
 Vec3 sag_of(const Vec3& along, const Vec3& down) {
   const auto across = [&along](const Vec3& way) -> Vec3 { return way - along * along.dot(way); };
   if (across(down).norm() > 1e-6) return across(down).normalized();

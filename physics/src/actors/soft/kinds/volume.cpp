@@ -16,8 +16,8 @@ namespace {
 using Four = std::array<std::uint32_t, 4>;
 using Three = std::array<std::uint32_t, 3>;
 
-/// A cell as five tetrahedra: one in the middle on every other corner, and one at each corner that it leaves. Cells in
-/// turn take the one half of the corners and the other, so that their faces meet.
+/// A cell as five tetrahedra: one in the middle on every other corner, and one at each remaining corner. Cells
+/// alternate between the two halves of the corners, so that their faces match.
 void divide(const std::array<std::uint32_t, 8>& corners, bool odd, std::vector<Four>& solids) {
   constexpr std::array<std::size_t, 4> even_ones{0, 3, 5, 6}, odd_ones{1, 2, 4, 7};
   const auto& middle = odd ? odd_ones : even_ones;
@@ -35,7 +35,7 @@ void divide(const std::array<std::uint32_t, 8>& corners, bool odd, std::vector<F
   for (const std::size_t corner : cut) add(corner, corner ^ 1u, corner ^ 2u, corner ^ 4u);
 }
 
-/// The sides that only one tetrahedron has, seen from outside.
+/// The faces that only one tetrahedron has, seen from outside.
 std::vector<Three> surface_of(const std::vector<Four>& solids) {
   std::map<Three, std::pair<int, Three>> sides;
   std::vector<Three> order;

@@ -17,13 +17,13 @@ constexpr int passes = 4, most_heeded = 64;
 /// Two nodes that came too near.
 struct NodePair {
   std::uint32_t a = 0, b = 0;
-  double apart = 0;  ///< as far as they must end, m
+  double apart = 0;  ///< distance at which they must end, m
   double friction = 0;
   double rubbed = 0;  ///< push across so far, kg m
   double pressed = 0;
 };
 
-/// A cell's place along an axis, counted around and around.
+/// A cell's index along an axis, which wraps around.
 std::uint64_t wrapped(double cells) {
   constexpr double around = 0x1p21;
   const double whole = std::floor(cells);
@@ -43,7 +43,8 @@ class NodeGrid {
     std::sort(entries_.begin(), entries_.end());
   }
 
-  /// Calls `meet(a, b)` for nodes of one cell or of two that touch, for each pair once. It says whether a heeds more.
+  /// Calls `meet(a, b)` for nodes of the same cell or of two adjacent ones, once per pair. It returns whether a heeds
+  /// more.
   template <class Meet>
   void each_pair(const Meet& meet) const {
     for (std::uint32_t node = 0; node < places_.size(); ++node) meet_around(node, meet);
@@ -60,7 +61,7 @@ class NodeGrid {
   template <class Meet>
   void meet_around(std::uint32_t node, const Meet& meet) const {
     const Cell own = cell_of(node);
-    // Of two cells that touch, the nodes of one look into the other.
+    // Of two adjacent cells, the nodes of one visit the other.
     for (int place = 13; place < 27; ++place) {
       const int x = place / 9 - 1, y = place / 3 % 3 - 1, z = place % 3 - 1;
       const std::uint64_t key = key_of({own[0] + x, own[1] + y, own[2] + z});
@@ -95,7 +96,7 @@ class KeptApart {
     }
   }
 
-  /// Pairs within one soft body, or those of two.
+  /// Pairs within one soft body, or between different ones.
   void find(double push_out_speed, bool within) {
     std::vector<int> heeded(weight_.size(), 0);
     NodeGrid(places_, widest_).each_pair([&](std::uint32_t a, std::uint32_t b) {
@@ -106,7 +107,7 @@ class KeptApart {
       const double distance = (places_[a] - places_[b]).norm();
       if (!(distance < thickness)) return true;
       const double rest = within ? (at_rest(a) - at_rest(b)).norm() : thickness;
-      // What lies in each other is let out at a speed that throws nothing.
+      // Overlapping nodes are pushed out at a speed that throws nothing.
       const double was = (before_[a] - before_[b]).norm();
       const double apart = std::min({thickness, rest, was + h_ * push_out_speed});
       if (distance < apart)
@@ -147,7 +148,7 @@ class KeptApart {
     give(pair, -rub / way * slid);
   }
 
-  /// A push on the first, kg m, and against the second.
+  /// A push on the first node, kg m, and the opposite one on the second.
   void give(const NodePair& pair, const Vec3& push) {
     give_one(pair.a, push);
     give_one(pair.b, -push);
@@ -173,9 +174,9 @@ class KeptApart {
   bool backward_;
   double widest_ = 0;
   std::vector<std::uint32_t> first_;   ///< node of each soft body
-  std::vector<std::uint32_t> member_;  ///< whose node it is
+  std::vector<std::uint32_t> member_;  ///< the soft body of each node
   std::vector<Vec3> places_, before_;
-  std::vector<double> weight_;  ///< inverse masses; 0 of what is held
+  std::vector<double> weight_;  ///< inverse masses; 0 of held nodes
   std::vector<NodePair> pairs_;
 };
 

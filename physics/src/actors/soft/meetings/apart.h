@@ -7,7 +7,7 @@
 
 namespace tweenfall::soft {
 
-/// A soft body with a thickness, at the end of a sub-step that a solver has left.
+/// A soft body with a thickness, at the end of a sub-step, after the solver.
 struct Thick {
   SoftBody* body = nullptr;
   const std::vector<Vec3>* before = nullptr;  ///< where its nodes were at the start
@@ -17,10 +17,10 @@ struct Thick {
 /// Whether the nodes of two soft bodies keep apart: by the mean of their thicknesses.
 [[nodiscard]] bool meet_each_other(const SoftSettings& one, const SoftSettings& other);
 
-/// Keeps the nodes of a soft body apart by its thickness, as balls that neither bounce nor slide freely.
-/// @param h  length of the sub-step, s @param push_out_speed  at most, of what lies in each other, m/s
+/// Keeps the nodes of a soft body apart by its thickness, as balls that do not bounce, with friction.
+/// @param h  length of the sub-step, s @param push_out_speed  greatest speed of overlapping nodes, m/s
 void keep_apart(const Thick& thick, Partners& partners, double h, bool backward, double push_out_speed);
-/// The same of nodes of different soft bodies that meet each other.
+/// The same for nodes of different soft bodies that meet each other.
 void keep_apart_from_each_other(std::span<const Thick> thick, Partners& partners, double h, bool backward,
                                 double push_out_speed);
 

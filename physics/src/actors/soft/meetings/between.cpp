@@ -8,24 +8,24 @@ namespace tweenfall::soft {
 
 namespace {
 
-/// Where a triangle or an edge comes nearest to a body is found by going to and fro between the two.
+/// The point of a triangle or edge nearest to a body is found by alternating between the two.
 constexpr int looks = 6;
 
-/// A place between two or three nodes.
+/// A point between two or three nodes.
 struct Between {
   std::array<std::uint32_t, 3> nodes{};
   std::array<double, 3> share{};
   std::size_t count = 0;
 };
 
-/// The place of a segment that is nearest to a point, by the share of its second end.
+/// The point of a segment nearest to a given point, as the share of the segment's second end.
 double nearest_share(const Vec3& from, const Vec3& to, const Vec3& point) {
   const Vec3 along = to - from;
   const double square = along.squaredNorm();
   return square > 0 ? std::clamp(along.dot(point - from) / square, 0.0, 1.0) : 0;
 }
 
-/// Shares of the corners of a triangle in its place that is nearest to a point.
+/// The point of a triangle nearest to a given point, as shares of the corners.
 std::array<double, 3> nearest_shares(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& point) {
   const Vec3 u = b - a, v = c - a, w = point - a;
   const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), det = uu * vv - uv * uv;
@@ -98,7 +98,8 @@ class Meeter {
            !((near.around.low - high).array() > beyond).any();
   }
 
-  /// The ball of a node at the place of the edge or triangle that comes nearest to the body, and how it meets that.
+  /// The ball of a node at the point of the edge or triangle that is nearest to the body, and its contact with the
+  /// body.
   [[nodiscard]] std::optional<Manifold> nearest(const Near& near, const Pose& node, double reach,
                                                 Between& between) const {
     const state::Body& rigid = bodies_[step_.partners[near.partner].body];
@@ -148,7 +149,7 @@ class Meeter {
       weight += between.share[k] * between.share[k] * weight_[between.nodes[k]];
     const double give = weight + partner.give_along(normal, arm);
     if (!(give > 0)) return false;
-    // As much as came in this sub-step, and of what was there before as much as is let out.
+    // Everything that came in this sub-step, and of the earlier overlap as much as may be removed.
     const Vec3 came = at(between, x_) - at(between, before_) - (center + arm - before_place(partner, arm));
     const double depth = std::min(point.penetration, std::max(0.0, -normal.dot(came)) + push_out_);
     const double pressed = depth / give;
@@ -168,7 +169,7 @@ class Meeter {
     return partner.before.center + partner.before.rotation * (partner.now.rotation.conjugate() * arm);
   }
 
-  /// A push on what lies between nodes, kg m, and against the body.
+  /// A push on the nodes in between, kg m, and the opposite one on the body.
   void hand(const Between& between, Partner& partner, const Vec3& push, const Vec3& arm) {
     for (std::size_t k = 0; k < between.count; ++k) {
       const std::uint32_t node = between.nodes[k];
@@ -191,7 +192,7 @@ class Meeter {
   const std::vector<state::Body>& bodies_;
   const std::vector<Vec3>& before_;
   double push_out_;
-  std::vector<double> weight_;  ///< inverse masses; 0 of what is held
+  std::vector<double> weight_;  ///< inverse masses; 0 of held nodes
 };
 
 }  // namespace
@@ -201,7 +202,7 @@ bool may_slip_between(const SoftSettings& made, const Shape& shape) {
   const double longest = longest_edge(made);
   if (!(longest > 2 * made.radius)) return false;
   const Bounds own = bounds(Shape{shape.solid, {}}, Pose{});
-  // A ball that just goes through the middle of a triangle or a square of such edges is as wide as these are long.
+  // A ball that just fits through a triangle or a square of such edges is about as wide as these are long.
   return (own.high - own.low).minCoeff() < 1.5 * longest;
 }
 

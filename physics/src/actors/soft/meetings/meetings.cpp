@@ -18,7 +18,7 @@ Pose pose_of(const state::Body& body, const Place& place) {
   return {place.center - place.rotation * body.mass().center, place.rotation, Vec3(1, 1, 1)};
 }
 
-/// How far a turn between two places moves a point, m: at most.
+/// Upper bound of how far a turn between two poses moves a point, m.
 double swing(const Place& before, const Place& now, double arm) {
   return 2 * arm * std::min(1.0, (now.rotation.coeffs() - before.rotation.coeffs()).norm());
 }
@@ -78,7 +78,7 @@ void find_contacts(const SoftBody& body, const std::vector<Near>& near, const st
       const Vec3& at = body.positions[node];
       const Vec3 goes = h * (body.velocities[node] + h * gravity);
       const double arm = (at - partner.before.center).norm();
-      // Half a radius more, for what its neighbors make of its way.
+      // Half a radius more, because its neighbors change its path.
       const double reach = goes.norm() + way + swing(partner.before, partner.now, arm) + 0.5 * made.radius;
       const double beyond = reach + made.radius + partner.shift.norm();
       if (((at - other.around.low).array() < -beyond).any() || ((other.around.high - at).array() < -beyond).any())
@@ -103,7 +103,7 @@ void find_contacts(const SoftBody& body, const std::vector<Near>& near, const st
         const Twist own = rigid.surface();
         contact.carried += h * velocity_at(own, contact.arm);
       }
-      // What lies inside is let out at a speed that throws nothing.
+      // A node inside is pushed out at a speed that throws nothing.
       contact.least = std::min(0.0, h * push_out_speed - point.penetration);
       contact.friction = other.friction;
       contacts.push_back(contact);

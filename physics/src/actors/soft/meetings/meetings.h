@@ -11,24 +11,24 @@ namespace tweenfall::soft {
 /// A body that a soft one may meet in a step.
 struct Near {
   std::uint32_t partner = 0;
-  Bounds around{Vec3(0, 0, 0), Vec3(0, 0, 0)};     ///< all its way, world
+  Bounds around{Vec3(0, 0, 0), Vec3(0, 0, 0)};     ///< its whole path, world
   double friction = 0;                             ///< with the soft body
   bool slips = false;                              ///< it is thinner than the space between nodes
-  std::shared_ptr<const flat::Section> section{};  ///< in a plane: what it cuts out of the body
+  std::shared_ptr<const flat::Section> section{};  ///< in a planar world: its section
 
-  /// How a ball touches the body, out of it. In a plane both lie there.
-  /// @param node  of the body @param ball  its middle, world, m
-  /// @param reach  gaps up to this are told, m
+  /// How a ball touches the body; the normal points out of it. In a planar world both lie in the plane.
+  /// @param node  of the body @param ball  its center, world, m
+  /// @param reach  gaps up to this are reported, m
   [[nodiscard]] Manifold touch(const state::Body& rigid, const Pose& node, const Vec3& ball, double radius,
                                double reach) const;
 };
 
-/// @param bodies  all of the world, as the step has left them
+/// @param bodies  all bodies of the world, as the step has left them
 [[nodiscard]] std::vector<Near> find_near(const SoftBody& body, const std::vector<state::Body>& bodies,
                                           Partners& partners, const WorldSettings& settings, double dt);
 
-/// The planes that nodes must end a sub-step before. A node that is fast enough to get to a surface meets its plane
-/// before it is there: so none passes a thin wall.
+/// The planes in front of which nodes must end a sub-step. A node that is fast enough to reach a surface gets its plane
+/// before it is there: so none passes through a thin wall.
 void find_contacts(const SoftBody& body, const std::vector<Near>& near, const std::vector<state::Body>& bodies,
                    const Partners& partners, const Vec3& gravity, double push_out_speed, double h,
                    std::vector<NodeContact>& contacts);

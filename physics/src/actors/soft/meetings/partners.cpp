@@ -15,8 +15,8 @@ Vec3 turn_between(const Quat& from, const Quat& to) {
   return log_map(hemisphere_aligned(to * from.conjugate(), Quat(1, 0, 0, 0)));
 }
 
-/// Where the course has the body at a time since the start of the step. One that nothing moves goes by the cubic of its
-/// path. One that can be moved goes as sub-steps of backward Euler take what falls evenly: so one that soft bodies hold
+/// Where the course has the body at a time since the start of the step. An immovable body follows the cubic of its
+/// path. A movable one moves as sub-steps of backward Euler move what falls evenly: so one that soft bodies hold
 /// at rest stays at rest.
 Place on_course(const Partner& partner, double time, double h, double dt) {
   const Place &start = partner.start, &end = partner.end;
@@ -43,8 +43,8 @@ Place on_course(const Partner& partner, double time, double h, double dt) {
   return place;
 }
 
-/// Drag that a step takes as it is at its end has kept a part of what made the body faster. Of what it is given it
-/// keeps as much: a body with so much more mass would.
+/// A step takes drag as it is at its end, and so has kept only a part of what accelerated the body. The same part of
+/// what soft bodies give remains: it is as if the body had that much more mass.
 void resist(const forces::Load& load, double dt, Partner& partner) {
   if (load.drag > 0) {
     partner.mass *= 1 + dt * load.drag;
@@ -73,7 +73,7 @@ std::uint32_t Partners::number_of(std::uint32_t index) {
     partner.inertia = body.world_inertia(body.motion.pose.rotation);
     partner.inverse_inertia = body.world_inverse_inertia(body.motion.pose.rotation);
     if (plane_ != WorldPlane::none) {
-      // All that acts turns it about the normal alone.
+      // In a planar world, everything turns it about the normal alone.
       const int normal = flat::Axes::of(plane_).normal;
       const double moment = body.mass().inertia(normal, normal);
       partner.inertia = moment * Mat3::Identity();
@@ -138,7 +138,7 @@ void Partners::finish(double h) {
       if (body.immovable()) body.extra.own().reaction += partner.taken;
       continue;
     }
-    // As for what moves freely, half of the last sub-step's gain belongs to the time before it.
+    // As for free motion, half of the last sub-step's gain belongs to the time before it.
     body.center = partner.end.center + partner.shift - 0.5 * h * partner.push;
     body.twist.linear += partner.push;
     body.twist.angular += partner.spin;

@@ -8,22 +8,22 @@
 
 namespace tweenfall::soft {
 
-/// Where a rigid body is, and its twist at its center of mass.
+/// The pose of a rigid body, and its twist at its center of mass.
 struct Place {
   Vec3 center{0, 0, 0};
   Quat rotation{1, 0, 0, 0};
   Twist twist;
 };
 
-/// A rigid body that soft ones touch or hold on to in a step that it has been through already: along its course, and
+/// A rigid body that soft ones touch or hold on to in a step that it has already been through: along its course, and
 /// off it by what they give it.
 struct Partner {
   std::uint32_t body = 0;
-  // With what resists it through the step, which is as if it had that much more of both
-  double mass = 0, inverse_mass = 0;                            ///< kg; inverse 0 for one that nothing moves
+  // Including resistance through the step, which acts as if the body had more of both
+  double mass = 0, inverse_mass = 0;                            ///< kg; inverse 0 for an immovable body
   Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  ///< world axes
   Place start, end;                                             ///< of the step
-  bool along_parabola = false;  ///< its velocities belong to its displacement: no blow has changed them
+  bool along_parabola = false;  ///< its velocities match its displacement: no blow has changed them
   // Off its course so far
   Vec3 shift{0, 0, 0}, turn{0, 0, 0};  ///< m, rad
   Vec3 push{0, 0, 0}, spin{0, 0, 0};   ///< m/s, rad/s
@@ -36,7 +36,7 @@ struct Partner {
   [[nodiscard]] bool moves() const { return inverse_mass > 0; }
   /// A point of the body at the end of the sub-step, as far as it is known. @param arm  from its center, then
   [[nodiscard]] Vec3 point(const Vec3& arm) const { return now.center + arm + moved + turned.cross(arm); }
-  /// How much a push of 1 kg m along a unit direction moves that point, 1/kg.
+  /// How far a push of 1 kg m along a unit direction moves that point, 1/kg.
   [[nodiscard]] double give_along(const Vec3& direction, const Vec3& arm) const {
     const Vec3 lever = arm.cross(direction);
     return inverse_mass + lever.dot(inverse_inertia * lever);
@@ -54,11 +54,11 @@ struct Gift {
   Vec3 moved{0, 0, 0}, turned{0, 0, 0}, taken{0, 0, 0};
 };
 
-/// All that soft bodies meet in a step.
+/// All bodies that soft ones meet in a step.
 class Partners {
  public:
   /// @param starts  by body, as they were before the step
-  /// @param loads  of the step, by body; those of a plane do not tell what resists
+  /// @param loads  of the step, by body; those of a planar world do not include resistance
   Partners(std::vector<state::Body>& bodies, const std::vector<Place>& starts, const std::vector<forces::Load>& loads,
            WorldPlane plane, double dt)
       : bodies_(bodies), starts_(starts), loads_(loads), plane_(plane), dt_(dt) {}
@@ -70,14 +70,14 @@ class Partners {
   [[nodiscard]] const state::Body& body(std::uint32_t index) const { return bodies_[index]; }
   [[nodiscard]] const Place& start(std::uint32_t index) const { return starts_[index]; }
 
-  /// On to a time since the start of the step, by a sub-step of length h.
+  /// Advances to a time since the start of the step, by a sub-step of length h.
   void go_to(double time, double h);
-  /// What all have been given in it so far, by number; and without what one has given.
+  /// What each has been given so far in the sub-step, by index. `take_back` subtracts what one soft body has given.
   [[nodiscard]] std::vector<Gift> given() const;
   void take_back(const std::vector<Gift>& gifts);
-  /// Takes what the bodies were given in the sub-step.
+  /// Applies what the bodies were given in the sub-step.
   void accept(double h);
-  /// Tells the bodies, and wakes them. @param h  of a sub-step
+  /// Writes the results to the bodies, and wakes them. @param h  of a sub-step
   void finish(double h);
 
  private:
