@@ -41,7 +41,7 @@ ClockOverride recovered_clock(const Animation& animation, const ClockOverride& b
     const auto clips = animation.clips();
     const auto found = std::ranges::find(clips, settings.clip, &Clip::name);
     if (found == clips.end()) throw std::invalid_argument("there is no clip \"" + settings.clip + "\" to hand back to");
-    // Asked for by name, the clip is followed wholly, however it was faded or masked.
+    // A clip asked for by name is followed entirely, however it was faded or masked.
     const auto clip = static_cast<std::size_t>(found - clips.begin());
     if (clock.clip != clip) clock.starts_by = now;
     clock.clip = clip;
@@ -57,7 +57,7 @@ ClockOverride recovered_clock(const Animation& animation, const ClockOverride& b
     for (const Player& player : animation.players())
       if (!alone || player.play().clip == clock.clip)
         first = std::min({first, player.first_at(), alone ? clock.starts_by : player.first_at()});
-    // All together: what overlapped still does.
+    // All together, so that what overlapped still does.
     clock.timeline = first;
     clock.stage = time;
   }
@@ -75,7 +75,7 @@ WorldMotion carried(const WorldMotion& world, const Motion& to) noexcept {
   result.motion.pose.scale = from.pose.scale;
   result.motion.scale_rate = from.scale_rate;
   result.linear = turn * world.linear;
-  // linear = R M: what turns is replaced, what deforms stays.
+  // linear = R M: the rotation is replaced, the deformation stays.
   const Mat3 deforming = world.linear_rate - handing_over::cross_matrix(from.twist.angular) * world.linear;
   result.linear_rate = turn * deforming + handing_over::cross_matrix(to.twist.angular) * result.linear;
   return result;

@@ -12,7 +12,7 @@ namespace tweenfall {
 namespace handing_over {
 namespace {
 
-/// exp(r) q for a rotation vector in world axes: the left Jacobian is the right one of -r.
+/// For exp(r) q with a rotation vector in world axes: the left Jacobian is the right one of -r.
 Mat3 left_jacobian(const Vec3& r) {
   return right_jacobian(-r);
 }
@@ -20,7 +20,7 @@ Mat3 left_jacobian_inverse(const Vec3& r) {
   return right_jacobian_inverse(-r);
 }
 
-/// The motion turned further by a rotation vector that changes, world axes.
+/// The motion turned further by a changing rotation vector, world axes.
 Motion turned(Motion motion, const Vec3& turn, const Vec3& turn_rate) {
   if (turn.isZero(0) && turn_rate.isZero(0)) return motion;
   const Quat relative = exp_map(turn);
@@ -58,11 +58,11 @@ SettleOffset::SettleOffset(const Settle& settle, double time, const Motion& path
 
 Motion SettleOffset::apply(double time, const Motion& path) const noexcept {
   if (!any_) return path;
-  const double since = std::max(0.0, time - start_);  // asked for a hair too early, it is where it starts
+  const double since = std::max(0.0, time - start_);  // just before its start, it is as at its start
 
   if (settle_.kind == Settle::Kind::dead_blend) {
-    // Source: Holden, "Dead Blending", 2023: extrapolate what was, cross-fade to what shall be. Rotation fades as the
-    // turn from the path, told as one vector: so any number of turns is unwound, and none is taken for its opposite.
+    // Source: Holden, "Dead Blending", 2023: extrapolate the old motion, and cross-fade to the new one. Rotation fades
+    // as the turn from the path, as one vector: so any number of turns is unwound, and none is taken for its opposite.
     if (since >= settle_.seconds) return path;
     const double u = since / settle_.seconds, fade = u * u * (3 - 2 * u), rate = 6 * u * (1 - u) / settle_.seconds;
     Motion mixed = path;

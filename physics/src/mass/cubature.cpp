@@ -8,7 +8,7 @@ namespace tweenfall::mass {
 namespace {
 
 constexpr std::size_t points = 7;
-/// From 0 to 1, where Gauss's three are the second, fourth and sixth.
+/// From 0 to 1; the second, fourth and sixth are Gauss's three.
 constexpr std::array<double, points> nodes = {
     0.5 - 0.960491268708020283 / 2, 0.5 - 0.774596669241483377 / 2, 0.5 - 0.434243749346802558 / 2, 0.5,
     0.5 + 0.434243749346802558 / 2, 0.5 + 0.774596669241483377 / 2, 0.5 + 0.960491268708020283 / 2};
@@ -17,16 +17,16 @@ constexpr std::array<double, points> fine = {
     0.401397414775962223 / 2, 0.268488089868333441 / 2, 0.104656226026467265 / 2};
 constexpr std::array<double, points> coarse = {0, 5.0 / 18, 0, 8.0 / 18, 0, 5.0 / 18, 0};
 
-/// A block of the unit cube, and what lies in it.
+/// A block of the unit cube, and the integrals over it.
 struct Block {
   std::uint32_t piece = 0;
   std::array<double, 3> low{0, 0, 0}, size{1, 1, 1};
   Moments moments{}, errors{};
-  double error = 0;         ///< of all moments in one number, kg
-  std::uint8_t widest = 0;  ///< the direction that errs most
+  double error = 0;         ///< of all moments as one number, kg
+  std::uint8_t widest = 0;  ///< the direction with the greatest error
 };
 
-/// Adds up with what rounding takes off carried along. Source: Kahan, "Further remarks on reducing truncation errors",
+/// Compensated summation. Source: Kahan, "Further remarks on reducing truncation errors",
 /// 1965.
 struct ExactSum {
   double sum = 0, lost = 0;
@@ -46,7 +46,7 @@ class Cutting {
   }
 
   void measure(Block& block) {
-    std::array<Moments, 3> without{};  // by the coarse rule in one direction
+    std::array<Moments, 3> without{};  // with the coarse rule in one direction
     block.moments = {};
     for (std::size_t i = 0; i < points; ++i)
       for (std::size_t j = 0; j < points; ++j)
@@ -115,14 +115,14 @@ Summed sum_up(const Pieces& pieces, const Vec3& from, double size, const std::fu
     mass.add(blocks[i].moments[0]);
     error.add(blocks[i].error);
   }
-  // The one that errs most on top; of equals the one that was made first.
+  // The block with the greatest error on top; of equal ones the one that was made first.
   std::vector<std::size_t> order(blocks.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto errs_less = [&blocks](std::size_t a, std::size_t b) {
     return blocks[a].error != blocks[b].error ? blocks[a].error < blocks[b].error : a > b;
   };
   std::ranges::make_heap(order, errs_less);
-  // What rounding leaves, cutting does not mend: a block that errs by so little a share of all is let be.
+  // Cutting does not reduce rounding: a block whose error is so small a share of the whole is left as it is.
   constexpr double rounding = 1e-16;
   while (!order.empty() && error.sum > quadrature.tolerance * std::abs(mass.sum) &&
          cutting.evaluations < quadrature.most_evaluations) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Solids as images of the unit cube, one file for each: what a density is summed over.
+// Solids as images of the unit cube, one file per kind of solid: the domain over which a density is integrated.
 
 #include <tweenfall/physics/mass_properties.h>
 
@@ -9,10 +9,10 @@
 
 namespace tweenfall::mass {
 
-/// Where a place of the cube lies in the solid's own space, and how much volume stands there for one of the cube.
+/// The point of the solid's own space for a point of the cube, and the volume there per volume of the cube.
 struct Image {
   Vec3 place;      ///< m
-  double stretch;  ///< m^3; negative where a tetrahedron is to be taken away
+  double stretch;  ///< m^3; negative if a tetrahedron is to be subtracted
 };
 /// Smooth in all of u, v and w, each from 0 to 1.
 using Piece = std::function<Image(double u, double v, double w)>;
@@ -26,7 +26,7 @@ using Pieces = std::vector<Piece>;
 [[nodiscard]] Pieces pieces_of(const Cone& cone);
 [[nodiscard]] Pieces pieces_of(const TaperedCapsule& capsule);
 [[nodiscard]] Pieces pieces_of(const Hull& hull);
-/// Of a mesh that has no fault.
+/// For a mesh without faults.
 [[nodiscard]] Pieces pieces_of(const SurfaceMesh& mesh, const Vec3& apex);
 
 }  // namespace tweenfall::mass

@@ -15,7 +15,7 @@ struct Slice {
   double radius, height, rise;  ///< m
 };
 
-/// Adds the four quarters of what lies between the slices from 0 to 1.
+/// Adds the four quarters of the solid between the slices from 0 to 1.
 template <class SliceAt>
 void add_revolved(Pieces& pieces, const SliceAt& slice_at) {
   constexpr double quarter = std::numbers::pi / 2;
@@ -34,7 +34,7 @@ inline void add_frustum(Pieces& pieces, double bottom, double top, double bottom
   });
 }
 
-/// What of a ball lies between two angles from straight down.
+/// The part of a ball between two angles from straight down.
 inline void add_ball_slices(Pieces& pieces, double middle, double radius, double from, double to) {
   add_revolved(pieces, [=](double share) {
     const auto [sine, cosine] = elementary::sin_cos(from + (to - from) * share);

@@ -6,8 +6,8 @@
 
 namespace tweenfall::mass {
 
-// By distance from the middle, angle from the pole and angle around it: what varies with the distance alone, as in a
-// planet, varies with one number.
+// By distance from the center, angle from the pole and angle around it: a density that only depends on the distance, as
+// in a planet, then varies with one coordinate.
 Pieces pieces_of(const Sphere& sphere) {
   constexpr double quarter = std::numbers::pi / 2;
   Pieces pieces;

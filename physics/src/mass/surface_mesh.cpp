@@ -17,13 +17,13 @@ std::string text_of_vertex(const Vec3& p) {
   return "(" + number_text(p.x()) + ", " + number_text(p.y()) + ", " + number_text(p.z()) + ")";
 }
 
-/// Six times the volume between a place and a triangle: negative where that faces it.
+/// Six times the volume between a point and a triangle: negative if the triangle faces the point.
 double six_volumes(const SurfaceMesh& mesh, std::size_t triangle, const Vec3& from) {
   const auto corner = [&](std::size_t k) { return Vec3(mesh.positions[mesh.triangles[3 * triangle + k]] - from); };
   return corner(0).dot(corner(1).cross(corner(2)));
 }
 
-/// Numbers that are no places, and places that are none.
+/// Corners that name no vertex, and vertices that are not finite.
 std::string fault_of_lists(const SurfaceMesh& mesh) {
   if (mesh.triangles.empty()) return "a mesh with mass needs triangles; this one has none";
   if (mesh.triangles.size() % 3 != 0)
@@ -40,7 +40,7 @@ std::string fault_of_lists(const SurfaceMesh& mesh) {
   return {};
 }
 
-/// For each vertex the first one at its place.
+/// For each vertex, the first one at its position.
 std::vector<std::uint32_t> first_at_place(const SurfaceMesh& mesh) {
   const std::vector<Vec3>& p = mesh.positions;
   std::vector<std::uint32_t> order(p.size()), first(p.size());
@@ -53,7 +53,7 @@ std::vector<std::uint32_t> first_at_place(const SurfaceMesh& mesh) {
   return first;
 }
 
-/// A side of a triangle, as that runs along it.
+/// A side of a triangle, in the direction in which the triangle runs along it.
 struct Side {
   std::uint32_t from, to;
   std::size_t triangle;
@@ -77,7 +77,7 @@ std::string fault_of_edges(const SurfaceMesh& mesh) {
     return "the edge from " + text_of_vertex(mesh.positions[side.from]) + " to " +
            text_of_vertex(mesh.positions[side.to]);
   };
-  // Triangles that disagree are told before edges that have one side only: they leave such edges elsewhere.
+  // Inconsistent triangles are reported before edges with a single side, since they leave such edges elsewhere.
   for (std::size_t i = 1; i < sides.size(); ++i)
     if (sides[i - 1].from == sides[i].from && sides[i - 1].to == sides[i].to)
       return "triangles " + std::to_string(sides[i - 1].triangle) + " and " + std::to_string(sides[i].triangle) +
@@ -114,7 +114,7 @@ Pieces pieces_of(const SurfaceMesh& mesh, const Vec3& apex) {
                c = mesh.positions[mesh.triangles[i + 2]] - apex;
     const double six = a.dot(b.cross(c));
     if (six == 0) continue;
-    // The triangle grows from the apex with u; across it v goes from one corner to its far side.
+    // The triangle grows from the apex with u; v goes from one corner to the opposite side.
     pieces.emplace_back([=](double u, double v, double w) {
       const Vec3 across = a + v * ((1 - w) * (b - a) + w * (c - a));
       return Image{apex + u * across, six * u * u * v};

@@ -62,7 +62,7 @@ WeighedProperties weigh_pieces(const Cut& cut, const Density& density, const Qua
   const double first = std::max({e[1], e[2], e[3]}), far = offset.cwiseAbs().maxCoeff();
   double square = 0;
   for (std::size_t i = 4; i < e.size(); ++i) square = std::max(square, e[i]);
-  // The turn into the frame of the density mixes three coordinates, and an element of the inertia two integrals.
+  // The rotation into the frame of the density mixes three coordinates, and an element of the inertia two integrals.
   const double mixing = cut.pose.rotation.vec() == Vec3(0, 0, 0) ? 1 : 3;
   result.mass_error = e[0];
   result.center_error = mixing * (first + far * e[0]) / of.mass;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a world in a plane takes. All throw std::invalid_argument that tells what is wrong.
+/// What a world in a plane accepts. All throw std::invalid_argument saying what is wrong.
 
 #include <tweenfall/physics/planar_world.h>
 
@@ -17,7 +17,7 @@ void demand_settings(const WorldSettings& settings);
 void demand_body(const BodySettings& body);
 void validate_joint(const JointSettings& joint);
 
-/// Of a half-plane none.
+/// Zero for a half-plane.
 [[nodiscard]] MassProperties mass_of(const BodySettings& body);
 
 }  // namespace tweenfall::planar::inner

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The fields of all that a world in a plane is made of, each listed once: what is hashed, saved and loaded is the
-/// same. A field that is added and not listed here does not compile. Those that are as in space stand in
+/// The fields of everything in a world in a plane, each listed once, so that what is hashed, saved and loaded is the
+/// same. A field that is added and not listed here does not compile. Fields shared with space are in
 /// saving/fields.h.
 
 #include "planar/body.h"

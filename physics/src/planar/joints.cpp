@@ -9,11 +9,11 @@ namespace tweenfall::planar::inner {
 
 namespace {
 
-// How a joint that is apart is drawn together: frequency times the sub-step, and damping ratio.
+// How fast joint errors are corrected: frequency times the sub-step, and damping ratio.
 constexpr double joint_cycles = 0.25;
 constexpr double joint_damping = 2;
 
-/// What is left of an inverse mass by no more than this part of it is rounding.
+/// An inverse mass of which no more than this part is left is rounding.
 constexpr double new_enough = 1e-10;
 
 }  // namespace
@@ -50,7 +50,7 @@ JointRows::JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>&
     const bool b_moves = end(its.b, its.anchor_b, row.b, row.inverse_mass_b, row.inverse_moment_b, row.center_b,
                              row.angle_b, row.local_b);
     const bool held_in_vain = row.inverse_mass_a + row.inverse_mass_b == 0;
-    // What sleeps goes on to bear what it bore.
+    // A sleeping joint keeps its load.
     if (!(a_moves || b_moves) && !held_in_vain) continue;
     joint.total = Vec2(0, 0);
     joint.total_turn = 0;
@@ -184,7 +184,7 @@ void JointRows::lay_out(Row& row, const Gear& gear) const {
   weigh(row);
 }
 
-/// The factor of what is held.
+/// Factors the rows that hold.
 void JointRows::weigh(Row& row) const {
   for (std::size_t i = 0; i < row.count; ++i)
     for (std::size_t k = 0; k <= i; ++k) {
@@ -198,7 +198,7 @@ void JointRows::weigh(Row& row) const {
     }
 }
 
-/// What it leaves of a way.
+/// The inverse mass that remains along a coordinate.
 void JointRows::weigh(const Row& row, Way& way) const {
   Held together{};
   for (std::size_t i = 0; i < row.count; ++i) together[i] = coupling(row, row.held[i], way.line);
@@ -237,7 +237,7 @@ void JointRows::begin_sub_step(const std::vector<BodyRow>& displacements, std::v
   }
 }
 
-/// What drives and bounds the coordinate; of a wheel its motor does not.
+/// Drives and bounds the coordinate; but not by the motor of a wheel.
 double JointRows::along_way(const Row& row) {
   const Joint& joint = *row.joint;
   return (row.turning ? joint.spring : joint.motor) + joint.lower - joint.upper;
@@ -285,7 +285,7 @@ void JointRows::drive(Row& row, const Way& way, const Motor& motor, std::vector<
   give(row, way, impulse, std::clamp(next, -most, most), velocities);
 }
 
-/// The spring of a wheel, to where the points are one.
+/// The spring of a wheel, toward where the points coincide.
 void JointRows::suspend(Row& row, const Wheel& wheel, std::vector<BodyRow>& velocities) const {
   double& impulse = row.joint->spring;
   const double speed = speed_of(row, row.way.line, velocities);
@@ -304,7 +304,7 @@ void JointRows::pull(Row& row, const Spring& spring, std::vector<BodyRow>& veloc
   give(row, row.way, impulse, impulse + change, velocities);
 }
 
-/// Room that is left may be used up within the sub-step; what is too much is taken back softly, or as a spring does.
+/// Remaining room may be used up within the sub-step; excess is removed softly, or as by a spring.
 void JointRows::bound(Row& row, const Limits& limits, std::vector<BodyRow>& velocities, bool soft) const {
   const bool spring = limits.hz > 0, fixed = limits.low == limits.high && !spring;
   const auto stop = [&](double& impulse, double room, double sign) {
@@ -355,7 +355,7 @@ void JointRows::solve(std::vector<BodyRow>& velocities, bool soft) {
 void JointRows::end_sub_step() {
   for (Row& row : rows_) {
     Joint& joint = *row.joint;
-    // Forces act at b's point: about that they turn nothing.
+    // Forces act at b's point, about which they turn nothing.
     const auto add = [&](const Line& line, double impulse) {
       joint.total += impulse * line.along_b;
       if (line.along_b == Vec2::Zero()) joint.total_turn += impulse * line.turn_b;

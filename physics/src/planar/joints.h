@@ -10,7 +10,7 @@
 
 namespace tweenfall::planar::inner {
 
-/// What a row of a joint sees and moves: speed = along_b . v_b - along_a . v_a + turn_b w_b - turn_a w_a.
+/// The speed that a row of a joint sees, and moves: along_b . v_b - along_a . v_a + turn_b w_b - turn_a w_a.
 struct Line {
   Vec2 along_a{0, 0}, along_b{0, 0};
   double turn_a = 0, turn_b = 0;
@@ -24,52 +24,52 @@ struct Line {
 };
 
 /// Joints through a step, one after the other. What a joint holds is solved at once; what drives and bounds its
-/// coordinate is solved against bodies that are held so, and moves nothing that is held.
+/// coordinate is solved for bodies that are held like this, and does not move what is held.
 class JointRows {
  public:
   JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups, std::vector<Joint>& joints, double h,
             double warmth, double parts);
 
   [[nodiscard]] bool empty() const { return rows_.empty(); }
-  /// With the impulses of the sub-step before.
+  /// Applies the impulses of the sub-step before.
   void begin_sub_step(const std::vector<BodyRow>& displacements, std::vector<BodyRow>& velocities);
   void solve(std::vector<BodyRow>& velocities, bool soft);
   void end_sub_step();
   void end_step(const std::vector<BodyRow>& displacements);
-  /// The impulses that the next step begins with: so many times those of this one, or for 0 those before it.
+  /// Keeps `times` times the impulses for the next step; for 0 it keeps the earlier ones.
   void keep(double times);
 
  private:
   static constexpr std::size_t most_held = Joint::most_held;
   using Held = std::array<double, most_held>;
 
-  /// How a coordinate goes.
+  /// How a coordinate moves.
   struct Way {
     Line line;
     double position = 0;      ///< m or rad
-    Held carried{};           ///< what keeps what is held, for a unit of impulse along the way
-    double inverse_mass = 0;  ///< along the way, of what is held; 0: nothing moves that way
+    Held carried{};           ///< the impulses that hold the rest, per unit of impulse along the coordinate
+    double inverse_mass = 0;  ///< along the coordinate, while the rest is held; 0: nothing moves that way
   };
   struct Row {
     Joint* joint = nullptr;
-    Held held_before{};  ///< as the step began, and of what moves or bounds
+    Held held_before{};  ///< at the start of the step, of the rows that hold, and of those that drive or bound
     double motor_before = 0, spring_before = 0, lower_before = 0, upper_before = 0;
     std::uint32_t a = 0, b = 0;
     double inverse_mass_a = 0, inverse_mass_b = 0, inverse_moment_a = 0, inverse_moment_b = 0;
-    Vec2 center_a{0, 0}, center_b{0, 0};  ///< at the start of the step; of the world its anchor
+    Vec2 center_a{0, 0}, center_b{0, 0};  ///< at the start of the step; for the world its anchor
     double angle_a = 0, angle_b = 0;
     Vec2 local_a{0, 0}, local_b{0, 0};  ///< anchors from the centers of mass, node axes
-    // As the bodies lie in the sub-step
+    // For the positions of the bodies in the sub-step
     Vec2 arm_a{0, 0}, arm_b{0, 0}, apart{0, 0};
     Vec2 point_a{0, 0};               ///< world
-    double turned_a = 0, turned = 0;  ///< a, and b against a
-    double moved_a = 0, moved_b = 0;  ///< what they turned in the step
-    std::size_t count = 0;            ///< of what is held
+    double turned_a = 0, turned = 0;  ///< angle of a, and of b relative to a
+    double moved_a = 0, moved_b = 0;  ///< angles by which they turned in the step
+    std::size_t count = 0;            ///< number of rows that hold
     std::array<Line, most_held> held{};
-    Held off{};                          ///< by how much, m or rad
-    std::array<Held, most_held> root{};  ///< Cholesky factor of what is held
+    Held off{};                          ///< their errors, m or rad
+    std::array<Held, most_held> root{};  ///< Cholesky factor of the rows that hold
     Way way;                             ///< of the coordinate
-    std::optional<Way> turning;          ///< of a wheel, which has two
+    std::optional<Way> turning;          ///< second coordinate of a wheel
   };
 
   void place(Row& row, const std::vector<BodyRow>& displacements) const;
@@ -94,14 +94,14 @@ class JointRows {
   [[nodiscard]] static Held solved(const Row& row, Held right);
 
   [[nodiscard]] static double along_way(const Row& row);
-  /// Changes an impulse along a way to another, and all that is held with it.
+  /// Changes an impulse along a coordinate, and with it all rows that hold.
   void give(Row& row, const Way& way, double& impulse, double next, std::vector<BodyRow>& velocities) const;
   void hold(Row& row, std::vector<BodyRow>& velocities, bool soft) const;
   void bound(Row& row, const Limits& limits, std::vector<BodyRow>& velocities, bool soft) const;
   void drive(Row& row, const Way& way, const Motor& motor, std::vector<BodyRow>& velocities) const;
   void suspend(Row& row, const Wheel& wheel, std::vector<BodyRow>& velocities) const;
   void pull(Row& row, const Spring& spring, std::vector<BodyRow>& velocities) const;
-  /// The impulse of a spring, with which it ends the sub-step as it wants to.
+  /// The impulse of a spring with the force at the end of the sub-step.
   [[nodiscard]] double drawn(const Way& way, double impulse, double speed, double error, double wanted, double hz,
                              double zeta) const;
 

@@ -37,7 +37,7 @@ inline constexpr bool is_choice = false;
 template <class... T>
 inline constexpr bool is_choice<std::variant<T...>> = true;
 
-/// The state number by number, in one order, whether it is written or read.
+/// The state number by number, in one order, for both writing and reading.
 template <class Tool>
 struct NumberByNumber {
   Tool& tool;
@@ -66,7 +66,7 @@ struct NumberByNumber {
       tool.number(size);
       if constexpr (reads) {
         value.clear();
-        // One by one: a count that is wrong comes to the end of the bytes before it takes much room.
+        // One by one: a wrong count meets the end of the bytes before it takes much memory.
         for (std::uint64_t i = 0; i < size; ++i) one(value.emplace_back());
       } else {
         for (const auto& element : value) one(element);
@@ -99,7 +99,7 @@ struct NumberByNumber {
   }
 };
 
-/// All that tells on the next steps.
+/// Everything that affects the next steps.
 template <class Tool, class State>
 void walk_world(Tool& tool, State& world) {
   NumberByNumber<Tool>{tool}(world.settings, world.time, world.last_h, world.passed_over, world.bodies, world.makeups,
@@ -113,7 +113,7 @@ bool in_order(const std::vector<Meeting>& meetings) {
          }) == meetings.end();
 }
 
-/// Those of removed things, each once.
+/// Whether these are the indices of removed things, each once.
 template <class Things>
 bool are_unused(const std::vector<std::uint32_t>& indices, const Things& things) {
   std::vector<char> seen(things.size(), 0);
@@ -132,7 +132,7 @@ bool all_count(std::initializer_list<double> values) {
 }  // namespace
 }  // namespace inner
 
-/// Checks what was read and finds again what follows from it. @throws std::invalid_argument
+/// Checks what was read and recomputes what follows from it. @throws std::invalid_argument
 void World::Implementation::settle_in() {
   const auto expect = [](bool holds, const char* what) {
     inner::demand(holds, std::string("these bytes are no saved plane: ") + what);

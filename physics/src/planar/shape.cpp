@@ -30,7 +30,7 @@ bool is_place(const Vec2& v) {
   return std::abs(v.x()) <= longest && std::abs(v.y()) <= longest;
 }
 
-/// Twice the area that the corners go round; negative when clockwise.
+/// Twice the area inside the corners; negative when clockwise.
 double twice_area(const std::vector<Vec2>& corners) {
   double sum = 0;
   for (std::size_t i = 1; i + 1 < corners.size(); ++i)
@@ -63,7 +63,7 @@ void check(const Polygon& polygon) {
          "a polygon has 3 to 64 corners, but this one has " + std::to_string(count));
   for (const Vec2& corner : corners) demand(is_place(corner), "corners of a polygon must be finite and at most 1e30 m");
   const double whole = twice_area(corners);
-  // Sides so short that rounding decides which way they turn are none.
+  // Sides are too short if rounding decides which way they turn.
   double size = 0;
   for (const Vec2& corner : corners) size = std::max(size, (corner - corners[0]).norm());
   demand(std::abs(whole) > 1e-9 * size * size && whole != 0, "the corners of a polygon lie on one line");
@@ -117,7 +117,7 @@ MassProperties unit_mass(const Polygon& polygon) {
   const double twice = twice_area(corners);
   const Vec2 centroid = first / twice;
   properties.center = corners[0] + centroid;
-  // Triangles from the centroid: then nothing has to be taken off again.
+  // Triangles from the centroid, so that nothing has to be subtracted afterwards.
   double second = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 p = corners[i] - properties.center, q = corners[(i + 1) % corners.size()] - properties.center;
@@ -215,7 +215,7 @@ double skin_of(const Outline& outline) {
 
 namespace {
 
-/// Of a part that is placed on the node.
+/// For a part that is placed on the node.
 Plate plate_of(const Part& placed, const Vec2& center) {
   Plate plate;
   plate.skin = skin_of(placed.outline);
@@ -250,7 +250,7 @@ Plate endless_plate(const HalfPlane& half, const Shape& shape, const Vec2& cente
   return plate;
 }
 
-/// Of a shape with ends, placed on the node.
+/// For a shape that is not endless, placed on the node.
 struct PartsOf {
   const Shape& shape;
 

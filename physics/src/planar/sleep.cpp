@@ -10,7 +10,7 @@ namespace tweenfall::planar {
 namespace inner {
 namespace {
 
-/// A pull that would bring a body to this part of the speed of sleep before it fell asleep keeps it awake.
+/// A pull that would bring a body to this part of the sleep speed before it fell asleep keeps it awake.
 constexpr double pulling_share = 0.1;
 
 }  // namespace
@@ -25,7 +25,7 @@ std::uint32_t World::Implementation::root_of(std::uint32_t index) {
   return index;
 }
 
-/// Movable bodies that touch or hang together.
+/// Joins movable bodies that touch or are jointed.
 void World::Implementation::join_islands() {
   root.resize(bodies.size());
   std::iota(root.begin(), root.end(), 0u);
@@ -74,7 +74,7 @@ bool World::Implementation::rouse() {
   return any;
 }
 
-/// What a change of the pull would bring a body to before it fell asleep again tells whether it matters.
+/// A change of the pull matters by the speed that it would give a body before it fell asleep again.
 bool World::Implementation::bears_the_same(const Body& body) const {
   if (body.force == body.borne && body.torque == body.borne_torque) return true;
   const double change = body.inverse_mass * (body.force - body.borne).norm() +
@@ -82,7 +82,7 @@ bool World::Implementation::bears_the_same(const Body& body) const {
   return change * settings.sleep_after < inner::pulling_share * settings.sleep_speed;
 }
 
-/// What sets out slowly under a pull is slow at first, and still not at rest.
+/// A body that starts to move under a pull is slow at first, but not at rest.
 void World::Implementation::hold_in_the_air() {
   held.assign(bodies.size(), 0);
   for (const Meeting& meeting : meetings)
@@ -111,7 +111,7 @@ void World::Implementation::let_sleep(double dt) {
       continue;
     }
     const double speed = settings.sleep_speed, way = speed * dt + 1e-14 * body.center.norm();
-    // What overlap pushes apart moves without a speed. A driven body is never quite still while it nears its target.
+    // Removing overlap moves bodies without a speed. A driven body is never quite still while it nears its target.
     const bool still = body.velocity.norm() < speed * (body.driven ? 1e-3 : 1) &&
                        std::abs(body.spin) * body.reach < speed && (body.center - starts[i]).norm() <= way &&
                        std::abs(body.angle - start_angles[i]) * body.reach <= speed * dt + 1e-14 * body.reach;
@@ -128,7 +128,7 @@ void World::Implementation::let_sleep(double dt) {
       double& least = stillness[root_of(i)];
       least = std::min(least, bodies[i].still_for);
     }
-  // What moves by its own will keeps those awake that it touches.
+  // A body that moves by its own will keeps awake those that it touches.
   for (const Meeting& meeting : meetings) {
     if (meeting.count == 0 || meeting.sensing) continue;
     for (const auto& [by, other] : {std::pair(meeting.a, meeting.b), std::pair(meeting.b, meeting.a)})

@@ -18,8 +18,8 @@ namespace inner {
 namespace {
 
 constexpr double countable = 1e30;
-/// Of steps in more parts, and of those far shorter than the one before, impulses are not kept: what was known before
-/// is better, unless it is older than so many sub-steps.
+/// Impulses of steps in more parts than this, and of those far shorter than the one before, are not kept: the earlier
+/// ones are better, unless they are older than this many sub-steps.
 constexpr double most_parts = 2, long_enough = 0.15, old_after = 24;
 
 bool is_finite(const Body& body) {
@@ -56,7 +56,7 @@ void World::Implementation::set_out(double dt) {
     double gained = 0;
     if (!body.movable) {
       if (makeup.fixed) continue;
-      // The solver sees the mean velocity that takes it to its target.
+      // The solver uses the mean velocity that takes it to its target.
       body.velocity = Vec2(0, 0);
       body.spin = 0;
       if (body.has_target) {
@@ -78,7 +78,7 @@ void World::Implementation::set_out(double dt) {
     if (!body.under_way) continue;
     moving.push_back(i);
     body.travel = (body.velocity.norm() + gained) * dt + std::min(2.0, std::abs(body.spin) * dt) * body.reach;
-    // Of what is not finite no box can be made.
+    // No box can be made of values that are not finite.
     if (!(body.travel <= inner::countable)) body.travel = inner::countable;
   }
 }
@@ -95,7 +95,7 @@ void World::Implementation::find_meetings(double dt) {
   } while (sleepers > 0 && rouse());
 }
 
-/// Keyed bodies end exactly where they shall, with the path's own velocity.
+/// Keyed bodies end exactly where they must, with the path's own velocity.
 void World::Implementation::arrive(double dt) {
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
@@ -104,7 +104,7 @@ void World::Implementation::arrive(double dt) {
     if (body.movable && !body.driven) continue;
     Makeup& makeup = makeups[i];
     if (body.driven) {
-      // It goes on to be pulled to where it was told last.
+      // It is still pulled to where it was last told to be.
       makeup.target.velocity = Vec2(0, 0);
       makeup.target.spin = 0;
       continue;

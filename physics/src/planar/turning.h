@@ -8,12 +8,12 @@ namespace tweenfall::planar::inner {
 [[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
-/// A quarter turn counterclockwise; times a spin, the velocity of a point of that arm.
+/// A quarter turn counterclockwise; times a spin, it is the velocity of a point at this arm.
 [[nodiscard]] inline Vec2 quarter(const Vec2& a) {
   return {-a.y(), a.x()};
 }
 
-/// How something is turned.
+/// A rotation.
 struct Turn {
   double cos = 1, sin = 0;
 
@@ -22,9 +22,9 @@ struct Turn {
     return {both.cos, both.sin};
   }
   [[nodiscard]] Vec2 operator*(const Vec2& v) const { return {cos * v.x() - sin * v.y(), sin * v.x() + cos * v.y()}; }
-  /// The turn undone.
+  /// The inverse rotation.
   [[nodiscard]] Vec2 back(const Vec2& v) const { return {cos * v.x() + sin * v.y(), cos * v.y() - sin * v.x()}; }
-  /// Of another against this one.
+  /// The rotation of another relative to this one.
   [[nodiscard]] Turn to(const Turn& other) const {
     return {cos * other.cos + sin * other.sin, cos * other.sin - sin * other.cos};
   }

@@ -13,7 +13,7 @@ namespace tweenfall::planar {
 
 namespace inner {
 
-/// Where a joint holds a body, and how that moves.
+/// Where a joint holds a body, and how that point moves.
 struct JointEnd {
   Vec2 at, velocity;  ///< m, m/s
   double angle = 0, spin = 0;
@@ -32,11 +32,11 @@ struct World::Implementation {
   std::vector<inner::Pair> ignored;      ///< sorted
   std::vector<inner::Meeting> meetings;  ///< sorted
   double last_h = 0;                     ///< length of the last sub-step whose impulses are kept, s
-  double passed_over = 0;                ///< time since then in steps too short to be kept, s
+  double passed_over = 0;                ///< time since then, in steps too short to keep their impulses, s
   bool failed = false;                   ///< a body is not finite
 
   // What follows from these
-  std::vector<inner::Pair> kept_apart;  ///< by joints, or as they were told, sorted
+  std::vector<inner::Pair> kept_apart;  ///< by joints, or by `ignore`, sorted
   inner::NearPairs near;
   std::size_t sleepers = 0;
 
@@ -45,9 +45,9 @@ struct World::Implementation {
   std::vector<EndedContact> ended;
   std::vector<SensorOverlap> overlaps;
 
-  // Room for a step
+  // Memory for a step
   double step_length = 0;             ///< s
-  std::vector<std::uint32_t> moving;  ///< under way
+  std::vector<std::uint32_t> moving;  ///< bodies under way
   std::vector<std::uint32_t> active;  ///< meetings with points to be solved
   std::vector<char> looked_at;        ///< by meeting
   std::vector<std::uint32_t> root;    ///< of islands
@@ -66,17 +66,17 @@ struct World::Implementation {
   [[nodiscard]] inner::JointEnd end_of(BodyId body, const Vec2& anchor) const;  ///< no body: the world
   [[nodiscard]] Motion motion_of(std::uint32_t index) const;
   void place(std::uint32_t index, const Motion& motion);
-  void give_mass(std::uint32_t index);  ///< what of its mass moves
+  void give_mass(std::uint32_t index);  ///< sets its inverse masses
   void wake(std::uint32_t index);
   void wake_neighbors(std::uint32_t index);
-  void keep_apart();  ///< finds `kept_apart` again
+  void keep_apart();  ///< updates `kept_apart`
   void look_again(std::uint32_t index);
   void meet_or_not(const inner::Pair& pair);
   void settle_in();  ///< after loading
 
   void step(double dt, double parts);
   void set_out(double dt);
-  void damp(std::uint32_t index, double h);  ///< what damping leaves in a sub-step
+  void damp(std::uint32_t index, double h);  ///< applies the damping of a sub-step
   void find_meetings(double dt);
   void look_at(inner::Meeting& meeting, double dt);
   bool rouse();
@@ -88,10 +88,10 @@ struct World::Implementation {
   void sense();
   void let_sleep(double dt);
   void forget_forces();
-  /// Whether what pulls a sleeper is what it fell asleep with.
+  /// Whether the pull on a sleeping body is that with which it fell asleep.
   [[nodiscard]] bool bears_the_same(const inner::Body& body) const;
   [[nodiscard]] inner::Gain gain_of(const inner::Body& body) const;
-  void hold_in_the_air();  ///< what a force pulls and nothing holds is not still
+  void hold_in_the_air();  ///< a body that a force pulls and nothing holds is not still
   void check_finite(double dt);
 };
 

@@ -5,7 +5,7 @@
 
 namespace tweenfall::queries {
 
-// What every asked scene answers alike. `Asked` has `scene()` and `id(item)`.
+// The answers that are the same for every scene. `Asked` has `scene()` and `id(item)`.
 
 template <class Asked, class Filter>
 [[nodiscard]] Scene::Accept accept(const Asked& asked, const Filter& filter) {

@@ -6,12 +6,12 @@ namespace tweenfall::queries {
 
 // Each throws std::invalid_argument, naming what is wrong.
 
-/// @param name  with its article, to begin a sentence
+/// @param name  with its article, to start a sentence
 void require_finite(const Vec3& value, const char* name);
 void require_amount(double value, const char* name);  ///< not negative; may be infinite
 void require_place(const Pose& pose);
 void require_no_plane(const Shape& shape);
-/// Not two planes, and both at finite places.
+/// Requires that not both are planes, and that both are at finite positions.
 void require_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 
 }  // namespace tweenfall::queries

@@ -16,7 +16,7 @@ namespace {
 using convex::Simplex;
 
 constexpr int most_corners = 200;
-/// Parts of the distance, and of the cores' size, by which it may still be too long.
+/// By how much the distance may still be too long, relative to itself and to the cores' size.
 constexpr double close_enough = 1e-14, distance_rounding = 1e-15;
 
 Closest swapped(Closest closest) {
@@ -25,21 +25,21 @@ Closest swapped(Closest closest) {
   return closest;
 }
 
-/// Puts the skins on.
+/// Adds the skins.
 Closest with_skins(Closest closest, double distance, double skin_a, double skin_b) {
   closest.gap = distance - (skin_a + skin_b);
   if (closest.gap > 0) {
     closest.on_a += skin_a * closest.normal;
     closest.on_b -= skin_b * closest.normal;
   } else {
-    // The middle of what both skins cover between the cores.
+    // The middle of the segment between the cores that both skins cover.
     const double from = std::max(0.0, distance - skin_b), to = std::min(distance, skin_a);
     closest.on_a = closest.on_b = closest.on_a + 0.5 * (from + to) * closest.normal;
   }
   return closest;
 }
 
-/// The closest of what `ask` says of each part on its node.
+/// The closest of the results of `ask` for each part on its node.
 template <class Ask>
 Closest closest_of_parts(const Compound& compound, const Pose& offset, const Ask& ask) {
   Closest best;
@@ -57,7 +57,7 @@ Closest closest_of_parts(const Compound& compound, const Pose& offset, const Ask
 /// Three-Dimensional Space, 1988; van den Bergen, A Fast and Robust GJK Implementation for Collision Detection of
 /// Convex Objects, 1999.
 Closest closest_between(const Core& a, const Core& b) {
-  // About a's center: far from the origin of the world nothing is lost.
+  // Relative to a's center, so that nothing is lost far from the origin of the world.
   const Vec3 origin = a.at.center;
   Core near = a, other = b;
   near.at.center = Vec3::Zero();
@@ -82,7 +82,7 @@ Closest closest_between(const Core& a, const Core& b) {
     if (meet) break;
     const Simplex::Corner corner = corner_along(-between);
     size = std::max(size, corner.difference.norm());
-    // No point lies farther toward zero than this corner: what is left to gain is this.
+    // No point is farther toward zero than this corner: this bounds what is left to gain.
     if (square - between.dot(corner.difference) <= close_enough * square + distance_rounding * size * std::sqrt(square))
       break;
     if (simplex.has(corner.difference)) break;
@@ -148,7 +148,7 @@ Closest nearest_to(const Shape& shape, const Pose& pose, const Vec3& point) {
     closest = swapped(closest_on_surface(*surface, shapes::place(shape, pose), core));
   else
     closest = closest_between(core, core_of(shape, pose));
-  // Inside, the point itself and not one that rounding has moved.
+  // Inside, the point itself, and not one that rounding has moved.
   if (!(closest.gap > 0)) closest.on_a = closest.on_b = point;
   return closest;
 }

@@ -6,13 +6,13 @@
 
 namespace tweenfall::queries {
 
-/// A convex solid as a core and a skin of even thickness around it: all that distances need to know. Not for planes
+/// A convex solid as a core and a skin of even thickness around it: all that distances need. Not for planes
 /// and surfaces.
 struct Core {
   const Solid* solid = nullptr;
   shapes::Placed at;
   double skin = 0;                                ///< m
-  const std::array<Vec3, 3>* triangle = nullptr;  ///< instead of a solid
+  const std::array<Vec3, 3>* triangle = nullptr;  ///< in place of a solid
 
   /// The farthest point of the core, without its skin, along a direction of any length.
   [[nodiscard]] Vec3 farthest(const Vec3& direction) const;

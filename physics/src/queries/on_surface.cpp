@@ -40,8 +40,8 @@ void come_nearer(Closest& best, const Surface& surface, const Placed& at, const 
   });
 }
 
-/// Places as one sees them along a ray. A place looks the same from all triangles that it is a corner of, and on which
-/// side of an edge the ray passes is told exactly, so that no ray slips through between two.
+/// Points as seen along a ray. A vertex looks the same from all triangles that share it, and on which
+/// side of an edge the ray passes is computed exactly, so that no ray slips through between two triangles.
 /// Source: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, Journal of Computer Graphics Techniques, 2013.
 class SeenAlong {
  public:
@@ -53,7 +53,7 @@ class SeenAlong {
     shear_ = Vec2(direction[first_], direction[second_]) / direction[along_];
   }
 
-  /// Of a triangle, told from the ray's start, that turns its front to it.
+  /// For a triangle, relative to the ray's start, that faces the ray.
   [[nodiscard]] bool holds_origin(const Vec3& a, const Vec3& b, const Vec3& c) const {
     const Vec2 at_a = seen(a), at_b = seen(b), at_c = seen(c);
     return side(at_a, at_b) <= 0 && side(at_b, at_c) <= 0 && side(at_c, at_a) <= 0;
@@ -63,7 +63,7 @@ class SeenAlong {
   [[nodiscard]] Vec2 seen(const Vec3& place) const {
     return Vec2(place[first_], place[second_]) - place[along_] * shear_;
   }
-  /// Twice the area that the origin spans with an edge, its sign without rounding.
+  /// Twice the area that the origin spans with an edge, with the exact sign.
   [[nodiscard]] static double side(const Vec2& from, const Vec2& to) {
     const double ahead = from.x() * to.y(), back = from.y() * to.x();
     const double area = ahead - back;
@@ -132,7 +132,7 @@ std::optional<RayHit> first_on_surface(const Surface& surface, const Placed& at,
         const Vec3 out = (b - a).cross(c - a);
         const double falling = -direction.dot(out);
         if (!(falling > 0) || !seen.holds_origin(a, b, c)) return;
-        // Just behind the start is on it.
+        // A point just behind the start counts as the start.
         const double distance = -a.dot(out) / falling;
         const double rounding = 1e-14 * (a.norm() + from.norm());
         if (distance < -rounding || !(distance <= length)) return;

@@ -19,9 +19,9 @@ using MaybeEntry = std::optional<Entry>;
 
 const Entry from_inside = {0, {0, 1, 0}, true};
 
-/// Both distances at which a ray is so far from the origin, nothing where it passes by or lies inside and `from` too.
-/// Told from where the ray comes nearest, so that a far start loses nothing.
-/// Source: Haines and others, Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019.
+/// Both distances at which a ray is at this distance from the origin; empty if it passes by, or lies inside together
+/// with `from`. Computed relative to where the ray comes nearest, so that a far start loses nothing. Source: Haines and
+/// others, Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019.
 template <class Vector>
 std::optional<double> enters_round(const Vector& from, const Vector& direction, double radius) {
   const double square = direction.squaredNorm();
@@ -48,13 +48,13 @@ MaybeEntry enters(const Plane& plane, const Vec3& from, const Vec3& direction) {
   return Entry{height / falling, plane.normal};
 }
 
-/// The part of a ray that lies on the inner side of all half spaces given so far.
+/// The part of a ray on the inner side of all half spaces given so far.
 struct Clipped {
   double enter = 0, leave = std::numeric_limits<double>::infinity();
   Vec3 normal{0, 1, 0};
   bool inside = true, misses = false;
 
-  /// Behind normal . x <= offset, which the ray's start exceeds by `height`.
+  /// Keeps the part behind normal . x <= offset, which the ray's start exceeds by `height`.
   void clip(double height, double rising, const Vec3& outward) {
     if (height > 0) {
       inside = false;
@@ -100,7 +100,7 @@ MaybeEntry enters(const Capsule& capsule, const Vec3& from, const Vec3& directio
   if ((from - on_axis(from)).norm() <= capsule.radius) return from_inside;
   MaybeEntry first;
   const auto take = [&](const std::optional<double>& distance, bool ball, double end) {
-    // Between the prolonged sides, beyond an end, those lie behind.
+    // Points between the prolonged sides but beyond an end lie behind that end's hit.
     if (!distance || *distance < 0 || (first && first->distance <= *distance)) return;
     const Vec3 point = from + *distance * direction;
     if (ball ? point.y() * end < capsule.half_height : std::abs(point.y()) > capsule.half_height) return;
@@ -117,7 +117,7 @@ MaybeEntry enters(const Capsule& capsule, const Vec3& from, const Vec3& directio
 template <class T>
 concept IsMany = std::same_as<T, Compound> || std::same_as<T, TriangleMesh> || std::same_as<T, HeightField>;
 
-/// Not asked for: its parts or triangles are.
+/// Never called: their parts or triangles are asked instead.
 template <IsMany Many>
 MaybeEntry enters(const Many&, const Vec3&, const Vec3&) {
   return std::nullopt;
@@ -130,7 +130,7 @@ Ray checked_ray(const Vec3& from, const Vec3& direction, double length) {
   require_finite(direction, "the direction of a ray");
   require_amount(length, "the length of a ray");
   if (direction == Vec3::Zero()) throw std::invalid_argument("the direction of a ray must not be zero");
-  // Scaled first: squares of very long or short directions are no numbers.
+  // Scaled first: squares of very long or short directions overflow or vanish.
   Vec3 unit = direction / direction.cwiseAbs().maxCoeff();
   unit /= unit.norm();
   return {from, unit, length};

@@ -13,13 +13,13 @@ struct Ray {
   double length;   ///< m; may be infinite
 };
 
-/// @throws std::invalid_argument for what is no ray
+/// @throws std::invalid_argument for an impossible ray
 [[nodiscard]] Ray checked_ray(const Vec3& from, const Vec3& direction, double length);
 
 /// Where the ray first meets the shape.
 [[nodiscard]] std::optional<RayHit> first_on_ray(const Shape& shape, const Pose& pose, const Ray& ray);
 
-/// Whether a point on its way meets a box within so many times `direction`.
+/// Whether a point moving along `direction` meets a box within `length` times that vector.
 [[nodiscard]] inline bool meets_box(const Bounds& box, const Vec3& from, const Vec3& direction, double length) {
   double enter = 0, leave = length;
   for (int i = 0; i < 3; ++i) {
@@ -31,7 +31,7 @@ struct Ray {
     enter = std::max(enter, std::min(to_low, to_high));
     leave = std::min(leave, std::max(to_low, to_high));
   }
-  // A flat box is met at one place alone, which rounding must not tear apart.
+  // A flat box is met at a single distance, which rounding must not tear apart.
   return enter <= leave + 1e-12 * std::abs(leave);
 }
 

@@ -11,9 +11,9 @@ namespace tweenfall::queries {
 
 namespace {
 
-/// Room in a tree's boxes, in parts of a box's sides: what moves on a little need not be put in again.
+/// How much the tree's boxes are enlarged, in parts of their sides, so that small motions need no update.
 constexpr double spare = 0.05;
-/// Rounding of places, in parts of them.
+/// Rounding of positions, relative.
 constexpr double place_rounding = 1e-12;
 
 bool is_there(const Item& item) {
@@ -102,7 +102,7 @@ std::optional<Scene::ItemShapeHit> Scene::first_on_way(const Shape& moving, cons
     first = ItemShapeHit{*hit, item};
   };
   for (const std::uint32_t plane : planes_) see(plane);
-  // A hair farther than the first so far, for that is only nearly exact.
+  // A hair farther than the first hit so far, which is only nearly exact.
   const auto on_way = [&](const Bounds& other) {
     return meets_box({other.low - half, other.high + half}, middle, displacement,
                      first ? first->fraction * (1 + 1e-9) : 1.0);

@@ -10,22 +10,22 @@
 
 namespace tweenfall::queries {
 
-/// Something that can be asked about: a body of a world, or of a stage at some instant.
+/// Something that can be queried: a body of a world, or of a stage at some instant.
 struct Item {
-  const Shape* shape = nullptr;  ///< null: there is none of this number
+  const Shape* shape = nullptr;  ///< null: no item has this number
   Pose pose;
-  std::uint64_t mark = 0;  ///< another one means another thing: its shape may have changed
+  std::uint64_t mark = 0;  ///< a different mark means a different item: its shape may have changed
   std::uint64_t groups = 0;
   bool sensor = false;
 };
 
-/// Things where they are, with their boxes in a tree.
+/// Items at their positions, with their boxes in a tree.
 class Scene {
  public:
-  /// Whether an item counts. Not called for items that are not there.
+  /// Whether an item counts. Not called for items that do not exist.
   using Accept = std::function<bool(std::uint32_t item)>;
 
-  /// Items by their numbers, as they are from now on. What is not at a finite place is not there.
+  /// Items by number, from now on. An item that is not at a finite position does not exist.
   void arrange(std::size_t count, const std::function<Item(std::uint32_t)>& item_of);
 
   struct ItemRayHit : RayHit {

@@ -10,14 +10,15 @@ namespace tweenfall::queries {
 namespace {
 
 constexpr int most_advances = 100;
-/// Parts of a size: a gap that is none, and one that still tells its direction.
+/// Relative to a size: a gap that counts as none, and one that still gives its direction.
 constexpr double met = 1e-13, tells = 1e-9;
-/// How far before it one looks where round cores will touch, of which chords alone tell where they do; parts of a size.
+/// How far before the hit to look for the contact point of round cores, which touching cores no longer give; relative
+/// to a size.
 constexpr double just_before = 1e-8;
-/// Of a coordinate.
+/// Relative to a coordinate.
 constexpr double coordinate_rounding = 1e-15;
 
-/// From a shape that is stuck the short way out, where it is known.
+/// For shapes that overlap from the start: the shortest way out, if it is known.
 ShapeHit stuck(const Shape& moving, const Pose& start, const Vec3& displacement, const Shape& shape, const Pose& pose,
                const Vec3& common) {
   ShapeHit hit;
@@ -31,8 +32,8 @@ ShapeHit stuck(const Shape& moving, const Pose& start, const Vec3& displacement,
   return hit;
 }
 
-/// The way until two convex shapes meet. `closest_after(gone, first, inside)` tells how they lie to each other when one
-/// has gone so far, the one that stands still as a; where they overlap at first, it may fill in what that means.
+/// The path until two convex shapes meet. `closest_after(gone, first, inside)` says how they are to each other after
+/// one has moved by `gone`, with the resting one as a; if they overlap at first, it may fill in `inside`.
 template <class ClosestAfter>
 std::optional<ShapeHit> advance(const Vec3& displacement, double size, double none, bool round,
                                 const ClosestAfter& closest_after) {
@@ -51,7 +52,7 @@ std::optional<ShapeHit> advance(const Vec3& displacement, double size, double no
     fraction += closest.gap / closing;
     if (!(fraction <= 1)) return std::nullopt;
   }
-  // What only touches and leaves, or slides along, is not met.
+  // Shapes that only touch and part, or slide along, do not meet.
   const double closing = -displacement.dot(hit.normal);
   if (!(closing > 0)) return std::nullopt;
   if (round && core_distance <= tells * size && fraction > 0) {
@@ -65,7 +66,7 @@ std::optional<ShapeHit> advance(const Vec3& displacement, double size, double no
   return hit;
 }
 
-/// What of a compound's parts, on its node, is met first.
+/// The first hit among a compound's parts, on its node.
 template <class Meet>
 std::optional<ShapeHit> first_of_parts(const Compound& compound, const Pose& offset, const Meet& meet) {
   std::optional<ShapeHit> best;
@@ -112,7 +113,7 @@ std::optional<ShapeHit> first_on_way(const Shape& moving, const Pose& start, con
   const Closest first = closest_between(shape, pose, moving, start);
   if (!(first.gap > 0)) return stuck(moving, start, displacement, shape, pose, first.on_a);
   if (!still) {
-    // As if it stood still, and the other came the other way.
+    // As if it stood still, and the other moved the opposite way.
     std::optional<ShapeHit> hit = first_on_way(shape, pose, -displacement, moving, start);
     if (!hit) return hit;
     hit->normal = -hit->normal;

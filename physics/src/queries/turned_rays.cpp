@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-/// A ray is in a convex solid for one stretch of it; what is common to several has the stretch that is common to
-/// theirs.
+/// A ray is in a convex solid for one stretch of it; for the intersection of several solids, that is the intersection
+/// of their stretches.
 
 namespace tweenfall::queries {
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double without_bound = std::numeric_limits<double>::infinity();
 
-/// Of a ray, in a convex solid.
+/// The part of a ray inside a convex solid.
 struct Stretch {
   double enter = -without_bound, leave = without_bound;
   Vec3 normal{0, 1, 0};  ///< where it enters
@@ -40,7 +40,7 @@ struct Stretch {
   }
 };
 
-/// What lies around the y axis within a radius that falls with the height.
+/// Everything around the y axis within a radius that decreases with the height.
 struct Side {
   double radius = 0;  ///< at height 0, m
   double fall = 0;    ///< of the radius, per height
@@ -48,8 +48,8 @@ struct Side {
   [[nodiscard]] double radius_at(double height) const { return radius - fall * height; }
   [[nodiscard]] bool holds(const Vec3& point) const { return std::hypot(point.x(), point.z()) <= radius_at(point.y()); }
 
-  /// Both roots of the quadratic that the squares of radius and distance from the axis make; where the ray is steeper
-  /// than the side they are those of two cones, of which one is ours.
+  /// Both roots of the quadratic for radius squared = distance from the axis squared; if the ray is steeper
+  /// than the side, they belong to two opposite cones, one of which is ours.
   void meet(Stretch& stretch, const Vec3& from, const Vec3& direction) const {
     const double start = radius_at(from.y()), shrinks = fall * direction.y();
     const double across = direction.x() * direction.x() + direction.z() * direction.z();
@@ -93,7 +93,7 @@ void meet_ball(Stretch& stretch, const Vec3& center, double radius, const Vec3& 
   stretch.meet(nearest - half, nearest + half, (across - half * direction).normalized());
 }
 
-/// @param before  how far behind the start the stretch is told from
+/// @param before  distance from the stretch's origin to the ray's start
 std::optional<Entry> entry_of(const Stretch& stretch, double before) {
   const double enter = stretch.enter - before, leave = stretch.leave - before;
   if (!(enter <= leave) || leave < 0) return std::nullopt;
@@ -104,7 +104,7 @@ Entry from_within() {
   return {0, Vec3(0, 1, 0), true};
 }
 
-/// From where a ray comes nearest to the origin, so that a far start loses nothing.
+/// Relative to where a ray comes nearest to the origin, so that a far start loses nothing.
 Vec3 seen_from_near(const Vec3& from, const Vec3& direction, double& before) {
   before = from.dot(direction);
   return from - before * direction;
@@ -142,7 +142,7 @@ std::optional<Entry> enters(const Cone& cone, const Vec3& from, const Vec3& dire
                         from, direction);
 }
 
-/// Both balls, and what lies between the circles where the side touches them.
+/// Both balls, and the cone between the circles where the side touches them.
 std::optional<Entry> enters(const TaperedCapsule& capsule, const Vec3& from, const Vec3& direction) {
   const double lean = (capsule.bottom_radius - capsule.top_radius) / (2 * capsule.half_height);
   const double upright = std::sqrt(std::max(0.0, 1 - lean * lean));

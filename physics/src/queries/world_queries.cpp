@@ -11,7 +11,7 @@ namespace tweenfall {
 
 namespace queries {
 
-/// What questions may see of a world.
+/// Access of queries to a world.
 class Inside {
  public:
   explicit Inside(const World& asked)

@@ -19,12 +19,12 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-/// A rotation that takes the x axis to a direction, the short way.
+/// The shortest rotation that takes the x axis to a direction.
 Quat along(const Vec3& direction) {
   return normalized(shapes::turn_onto(Vec3(1, 0, 0), direction));
 }
 
-/// What a joint of the skin carries, in the axes of its node and the size of the world.
+/// The vertices that a joint of the skin carries, in the axes of its node and at world size.
 struct Part {
   std::vector<Vec3> points;
   std::size_t node = no_node;
@@ -138,7 +138,7 @@ class Fitting {
     return (high - low).norm();
   }
 
-  /// From the leaves: what carries little hands it on to its parent.
+  /// From the leaves: a part that carries little passes it on to its parent.
   void merge_small() {
     for (std::size_t i = parts_.size(); i-- > 0;) {
       Part& part = parts_[i];
@@ -147,7 +147,7 @@ class Fitting {
       const auto childless = [&] {
         return std::ranges::none_of(parts_, [&](const Part& other) { return other.kept && other.parent == i; });
       };
-      // A root that carries nothing is no bone either; its children then begin trees of their own.
+      // A root that carries nothing is no bone either; its children then start trees of their own.
       if (part.parent == no_bone && !part.points.empty() && !childless()) continue;
       part.kept = false;
       for (Part& other : parts_)
@@ -187,7 +187,7 @@ class Fitting {
     bone.shape.solid = fitted->capsule;
     bone.shape.offset.position = fitted->center;
     bone.shape.offset.rotation = normalized(shapes::turn_onto(Vec3(0, 1, 0), fitted->axis));
-    // The bone's way, or else that from the joint to what it carries.
+    // Along the bone, or else from the joint to what it carries.
     Vec3 twist = way.value_or(fitted->center);
     const double length = twist.norm();
     twist = length > 1e-3 * height_ ? Vec3(twist / length) : fitted->axis;

@@ -9,7 +9,7 @@ namespace tweenfall {
 namespace ragdoll {
 namespace {
 
-/// A body has the size of its shape: the node's scale is in it.
+/// A body has the size of its shape, which includes the node's scale.
 Motion unscaled(Motion motion) {
   motion.pose.scale = Vec3::Ones();
   motion.scale_rate = Vec3::Zero();
@@ -50,7 +50,7 @@ Ragdoll::Ragdoll(World& world, std::span<const RagdollBone> bones, std::span<con
                                       .frame_a = bone.frame_on_parent,
                                       .frame_b = bone.frame,
                                       .kind = bone.joint});
-    // The joint at 0: both frames are one.
+    // With the joint at 0, both frames coincide.
     const Pose frame = compose(at_rest[bone.parent], bone.frame_on_parent);
     const Quat rotation = normalized(frame.rotation * bone.frame.rotation.conjugate());
     at_rest[i] = {frame.position - rotation * bone.frame.position, rotation};

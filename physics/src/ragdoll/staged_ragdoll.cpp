@@ -18,7 +18,7 @@ std::uint64_t free_group(const StageDescription& stage) {
   throw std::invalid_argument("all 64 groups are taken: there is none left for a ragdoll");
 }
 
-/// A shape of the world's size on a node that is scaled: a stage scales it again.
+/// Converts a shape of world size to a scaled node, since a stage scales it again.
 Shape unscaled(const Shape& shape, double scale) {
   auto capsule = std::get<Capsule>(shape.solid);
   capsule.radius /= scale;

@@ -10,7 +10,7 @@ namespace tweenfall::shapes {
 
 namespace {
 
-/// Parts of the points that a capsule is wide enough for, and that may stay beyond each end.
+/// Share of the points within the capsule's radius, and share that may lie beyond each end.
 constexpr double within = 0.9;
 constexpr double left_out = 0.02;
 
@@ -56,7 +56,7 @@ std::optional<FittedCapsule> fitted_capsule(std::span<const Vec3> points, const 
     const FittedCapsule fitted = along_axis(points, middle, axis);
     if (!(fitted.capsule.radius > 0)) continue;
     const double size = volume(fitted.capsule);
-    // The bone's own way is right unless another is clearly better.
+    // The bone's own direction is right unless another is clearly better.
     if (best && !(size < 0.8 * least)) continue;
     best = fitted;
     least = size;

@@ -13,7 +13,7 @@ struct FittedCapsule {
   Vec3 axis{0, 1, 0};  ///< unit
 };
 
-/// The capsule of least volume about nearly all of the points, along `along` or one of the points' principal axes. A
+/// The capsule of least volume around nearly all points, along `along` or one of the points' principal axes. A
 /// few stray points stay outside. Empty for points without extent.
 [[nodiscard]] std::optional<FittedCapsule> fitted_capsule(std::span<const Vec3> points,
                                                           const std::optional<Vec3>& along);

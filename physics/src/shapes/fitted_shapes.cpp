@@ -26,7 +26,7 @@ void require_points(std::span<const Vec3> points, const char* what) {
                                   number_text(points[i].y()) + ", " + number_text(points[i].z()) + ")");
 }
 
-/// The point farthest along a direction; of equals the first.
+/// The point farthest along a direction; of equal ones the first.
 std::size_t farthest_point(std::span<const Vec3> points, const Vec3& direction) {
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
@@ -39,7 +39,7 @@ std::size_t farthest_point(std::span<const Vec3> points, const Vec3& direction) 
   return best;
 }
 
-/// Along the axes, across them, and between: 26 directions.
+/// Along the axes, perpendicular to them, and in between: 26 directions.
 std::vector<std::size_t> outermost(std::span<const Vec3> points) {
   std::vector<std::size_t> chosen;
   for (int x = -1; x <= 1; ++x)
@@ -58,13 +58,13 @@ ConvexHull hull_of_chosen(std::span<const Vec3> points, std::vector<std::size_t>
   return ConvexHull(places);
 }
 
-/// A point that stands out of a hull.
+/// A point that sticks out of a hull.
 struct Outlier {
   double out;
   std::size_t index;
 };
 
-/// For each face the point farthest out of it; those that stand out most come first.
+/// For each face, the point farthest outside of it; sorted by how far they stick out.
 std::vector<Outlier> outliers_of(const ConvexHull& hull, std::span<const Vec3> points, double noise) {
   std::vector<Outlier> farthest(hull.faces().size(), {noise, points.size()});
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -104,7 +104,7 @@ OrientedBox box_along(const Mat3& axes, std::span<const Vec3> points) {
   return box;
 }
 
-/// Small turns about its own axes, made smaller when none is better.
+/// Tries small turns about its own axes, smaller ones when none is better.
 OrientedBox refined(OrientedBox box, std::span<const Vec3> points) {
   for (double turn = 0.2; turn > 1e-6;) {
     bool better = false;
@@ -146,7 +146,7 @@ ConvexHull hull_around(std::span<const Vec3> points, std::size_t most) {
   while (chosen.size() < most) {
     const std::vector<shapes::Outlier> outliers = shapes::outliers_of(hull, points, noise);
     if (outliers.empty()) break;
-    // Only those that stand out far: what they bring in changes what the others are.
+    // Only those that stick out far: adding them changes how far the others do.
     for (const shapes::Outlier& each : outliers)
       if (chosen.size() < most && each.out >= 0.3 * outliers.front().out) chosen.push_back(each.index);
     hull = shapes::hull_of_chosen(points, chosen);
@@ -174,7 +174,7 @@ Shape box_around(std::span<const Vec3> points) {
       consider(axes);
     }
   }
-  // About all of the points, also those that a hull of so many vertices leaves out.
+  // Around all points, including those that a hull of limited vertices leaves out.
   const shapes::OrientedBox box = shapes::box_along(shapes::refined(best, corners).axes, points);
   Shape shape{Box{0.5 * (box.high - box.low)}, {}};
   shape.offset.position = box.axes * (0.5 * (box.low + box.high));

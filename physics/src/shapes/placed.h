@@ -15,7 +15,7 @@ struct Placed {
   return {node.position + node.rotation * shape.offset.position, rotation.toRotationMatrix()};
 }
 
-/// No place of a solid lies farther along a unit direction from its middle, m: infinite where that is not known.
+/// Upper bound of how far a solid reaches from its center along a unit direction, m: infinite if it is not known.
 [[nodiscard]] double support_along(const Solid& solid, const Mat3& axes, const Vec3& direction);
 
 }  // namespace tweenfall::shapes

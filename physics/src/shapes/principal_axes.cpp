@@ -38,7 +38,7 @@ Mat3 principal_axes(std::span<const Vec3> points) noexcept {
       for (int k = 0; k < 3; ++k) spread(i, k) += from[i] * from[k];
   }
   const SymmetricEigen<3> found = symmetric_eigen(spread);
-  std::array<int, 3> order{0, 1, 2};  // of equals the first stays first
+  std::array<int, 3> order{0, 1, 2};  // equal ones keep their order
   std::ranges::stable_sort(order, {}, [&](int i) { return found.values[i]; });
   Mat3 sorted;
   for (int i = 1; i < 3; ++i) {

@@ -27,7 +27,7 @@ double look(const Box& box, const Vec3& direction) {
   return 4 * (std::abs(direction.x()) * half.y() * half.z() + std::abs(direction.y()) * half.z() * half.x() +
               std::abs(direction.z()) * half.x() * half.y());
 }
-/// Two circles and what lies between them.
+/// Two circles and the area between them.
 double look(const TaperedCapsule& capsule, const Vec3& direction) {
   const double apart = 2 * capsule.half_height * slant_of(direction).sine;
   const double greater = std::max(capsule.bottom_radius, capsule.top_radius);

@@ -4,7 +4,7 @@
 
 namespace tweenfall::shapes {
 
-/// How large a shape looks along a direction: the area of its shadow, m^2. Parts of a compound count each by itself.
+/// The area a shape shows along a direction, m^2. Parts of a compound count one by one.
 /// @param direction  unit, node axes
 [[nodiscard]] double shadow_of(const Shape& shape, const Vec3& direction);
 

@@ -50,13 +50,13 @@ Vec3 principal_inertia(const Box& box, double mass) {
 Vec3 principal_inertia(const Capsule& capsule, double mass) {
   const double radius = capsule.radius;
   const double height = 2 * capsule.half_height;
-  // Volumes over pi r^2: the cylinder's is its height, the two half balls' together 4/3 r.
+  // Volumes divided by pi r^2: the cylinder's is its height, that of the two half balls together 4/3 r.
   const double balls = 4 * radius / 3;
   const double cylinder_mass = mass * height / (height + balls);
   const double balls_mass = mass * balls / (height + balls);
   const double square = radius * radius;
   const double along = cylinder_mass * square / 2 + balls_mass * 0.4 * square;
-  // A half ball's center of mass lies 3/8 r above its flat side; both are carried out to the cylinder's ends.
+  // A half ball's center of mass lies 3/8 r above its flat side; both are moved out to the cylinder's ends.
   const double across = cylinder_mass * (square / 4 + height * height / 12) +
                         balls_mass * (0.4 * square + height * height / 4 + 3 * height * radius / 8);
   return {across, along, across};
@@ -168,7 +168,7 @@ MassProperties mass_properties(const Shape& shape, double mass) {
   properties.mass = mass;
   properties.center = shape.offset.position + axes * center;
   properties.inertia = axes * inertia * axes.transpose();
-  // Rounding leaves the two triangles an ulp apart.
+  // Rounding leaves the two triangles of the matrix an ulp apart.
   properties.inertia = (0.5 * (properties.inertia + properties.inertia.transpose())).eval();
   return properties;
 }
@@ -182,7 +182,7 @@ Mat3 inertia_about(const MassProperties& properties, const Vec3& point) noexcept
 namespace shapes {
 namespace {
 
-/// Of what has a farthest place along every direction.
+/// For shapes with a farthest point along every direction.
 template <class Turned>
 Bounds turned_bounds(const Turned& solid, const Placed& placed) {
   Bounds result{placed.center, placed.center};
@@ -216,7 +216,7 @@ Bounds bounds(const Shape& shape, const Pose& node) noexcept {
     return {placed.center + result.low, placed.center + result.high};
   } else if (const auto* plane = std::get_if<Plane>(&shape.solid)) {
     Bounds result{-reach, reach};
-    // Half of space is bounded in a direction only when the normal lies along it.
+    // A half space is bounded in a direction only if the normal lies along it.
     const Vec3 normal = placed.axes * plane->normal;
     const Vec3 surface = placed.center + normal * plane->offset;
     for (int i = 0; i < 3; ++i) {
@@ -261,11 +261,11 @@ double support_of(const Hull& hull, const Mat3& axes, const Vec3& direction) {
 }
 
 double support_of(const Compound&, const Mat3&, const Vec3&) {
-  return std::numeric_limits<double>::infinity();  // its parts are looked at one by one
+  return std::numeric_limits<double>::infinity();  // its parts are handled one by one
 }
 
 double support_of(const TriangleMesh&, const Mat3&, const Vec3&) {
-  return std::numeric_limits<double>::infinity();  // its triangles are looked at one by one
+  return std::numeric_limits<double>::infinity();  // its triangles are handled one by one
 }
 double support_of(const HeightField&, const Mat3&, const Vec3&) {
   return std::numeric_limits<double>::infinity();

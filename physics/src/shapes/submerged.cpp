@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t most_corners_of_box_face = 4;
 
-/// Sums the part of a closed surface of polygons that is under a plane, as pyramids over a point of the plane: what
-/// closes the part up there has none.
+/// Sums the part of a closed surface of polygons that is below a plane, as pyramids from a point of the plane: the
+/// face in the plane that closes this part has no volume.
 /// Source: Mirtich, Fast and accurate computation of polyhedral mass properties, 1996.
 class CutPolyhedron {
  public:
@@ -59,12 +59,12 @@ class CutPolyhedron {
   double level_;
   Vec3 tip_;
   double volume_ = 0;
-  Vec3 first_{0, 0, 0};  ///< about the tip
+  Vec3 first_{0, 0, 0};  ///< about the tip of the pyramids
 };
 
 Moments under(const Sphere& sphere, const Vec3& normal, double level) {
   const double radius = sphere.radius, height = std::clamp(radius + level, 0.0, 2 * radius);
-  // A cap of that height: pi h^2 (3 r - h) / 3, and its moment -pi h^2 (2 r - h)^2 / 4 along the normal.
+  // A cap of this height: pi h^2 (3 r - h) / 3, and its moment -pi h^2 (2 r - h)^2 / 4 along the normal.
   const double volume = std::numbers::pi * height * height * (3 * radius - height) / 3;
   const double rest = 2 * radius - height;
   return {volume, -std::numbers::pi / 4 * height * height * rest * rest * normal};
@@ -152,7 +152,7 @@ Moments under(const Compound& compound, const Vec3& normal, double level) {
   return sum;
 }
 
-// What is scenery holds no liquid away.
+// Scenery displaces no liquid.
 template <class Scenery>
 Moments under(const Scenery&, const Vec3&, double) {
   return {};

@@ -11,7 +11,7 @@ namespace tweenfall::shapes {
 
 namespace {
 
-/// Of Gauss and Legendre's rule with 16 places, on -1 to 1: those above 0.
+/// Points and weights of the 16-point Gauss-Legendre rule on -1 to 1: those above 0.
 /// Source: Abramowitz and Stegun, Handbook of Mathematical Functions, table 25.4.
 struct GaussPlace {
   double at, weight;
@@ -25,8 +25,8 @@ constexpr std::array<GaussPlace, 8> gauss_places{{{0.095012509837637440185, 0.18
                                                   {0.944575023073232576078, 0.062253523938647892863},
                                                   {0.989400934991649932596, 0.027152459411754094852}}};
 
-/// Of a disc that a line cuts at a distance from its middle, what lies on the side of less: area, and its moment about
-/// a line through the middle beside the cut.
+/// The smaller part of a disc cut by a line at a distance from its center: area, and its moment about
+/// the line through the center parallel to the cut.
 struct CutDisc {
   double area, moment;
 };
@@ -47,7 +47,7 @@ Moments submerged(const Round& round, const Vec3& normal, double level) {
   const auto square = [&](double y) {
     return std::max(0.0, round.constant + y * (round.linear + y * round.quadratic));
   };
-  // Where the cut begins and ceases to meet the discs: (level - along y)^2 = across^2 radius^2.
+  // Where the cut starts and ends to meet the discs: (level - along y)^2 = across^2 radius^2.
   std::array<double, 5> ends{round.low, round.low, round.low, round.high, round.high};
   std::size_t count = 1;
   const auto add = [&](double y) {
@@ -78,7 +78,7 @@ Moments submerged(const Round& round, const Vec3& normal, double level) {
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const double low = ends[i], width = ends[i + 1] - low;
     if (!(width > 0)) continue;
-    // At the ends the integrand is a root of the height; seen through 3 u^2 - 2 u^3 it is smooth.
+    // At the ends the integrand is a square root of the height; substituting 3 u^2 - 2 u^3 makes it smooth.
     for (const GaussPlace& place : gauss_places)
       for (const double sign : {-1.0, 1.0}) {
         const double u = 0.5 + 0.5 * sign * place.at;

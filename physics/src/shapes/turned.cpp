@@ -11,16 +11,16 @@ namespace {
 
 constexpr double turned_pi = std::numbers::pi;
 
-/// Integrals along the axis by Gauss and Legendre's rule of three points: exact, for what is asked of balls and cones
-/// is of the fourth degree. Source: Abramowitz, Stegun, Handbook of Mathematical Functions, 1964, table 25.4.
+/// Integrals along the axis by the three-point Gauss-Legendre rule: exact, since those of balls and cones are of
+/// fourth degree. Source: Abramowitz, Stegun, Handbook of Mathematical Functions, 1964, table 25.4.
 struct AxisIntegrals {
   double square = 0;        ///< of the radius squared
-  double square_place = 0;  ///< times the place
+  double square_place = 0;  ///< times the position
   double square_arm = 0;    ///< times the square of the distance from the center
   double fourth = 0;        ///< of the radius to the fourth
 
-  /// @param from, to  places on the axis
-  /// @param square_at  the radius squared, a share of the way
+  /// @param from, to  positions on the axis
+  /// @param square_at  the radius squared, by the share of the way
   template <class SquareAt>
   void add(double from, double to, double center, const SquareAt& square_at) {
     const double half = 0.5 * std::sqrt(0.6);
@@ -42,7 +42,7 @@ struct AxisIntegrals {
     });
   }
 
-  /// What lies between two heights over a ball's middle.
+  /// Adds the part of a ball between two heights.
   void add_ball(double middle, double radius, double from, double to, double center) {
     add(middle + from, middle + to, center, [&](double share) {
       const double above = from + (to - from) * share;
@@ -63,8 +63,8 @@ AxisIntegrals integrals_of(const Cone& cone, double center) {
   return sums;
 }
 
-/// A piece of the lower ball, a piece of a cone between the circles along which it touches the balls, and a piece of
-/// the upper one.
+/// A piece of the lower ball, a piece of a cone between the circles where it touches the balls, and a piece of
+/// the upper ball.
 AxisIntegrals integrals_of(const TaperedCapsule& capsule, double center) {
   const auto [sine, cosine] = taper_of(capsule);
   const double bottom = capsule.bottom_radius, top = capsule.top_radius, half = capsule.half_height;
@@ -87,7 +87,7 @@ TurnedMeasures measured(const Turned& solid) {
   return measures;
 }
 
-/// On a circle about y, farthest along a direction.
+/// The farthest point along a direction on a circle about y.
 Vec3 on_rim(double radius, double height, const Vec3& direction) {
   const double across = std::sqrt(direction.x() * direction.x() + direction.z() * direction.z());
   if (!(across > 0)) return {radius, height, 0};
@@ -145,7 +145,7 @@ double radius_of(const TaperedCapsule& capsule) noexcept {
 }
 
 double rolling_radius(const Solid& solid, const Vec3& place, const Vec3& normal) noexcept {
-  /// Sine of the angle to the side's normal within which it is the side that touches.
+  /// Sine of the angle to the side's normal within which the side itself touches.
   constexpr double on_side = 0.05;
   if (const auto* sphere = std::get_if<Sphere>(&solid)) return sphere->radius;
   if (const auto* capsule = std::get_if<Capsule>(&solid)) return capsule->radius;

@@ -77,7 +77,7 @@ void IslandByStrategies::gather(const std::vector<Body>& bodies, const std::vect
       const double gap = point.start_gap > touching ? point.start_gap : 0;
       if (gap > 0 && (!part.ahead || part.h == 0)) continue;
       if (gap > 0) touch.wanted = -gap / part.h;
-      // What meets in a later part does so there.
+      // Bodies that meet in a later part are handled there.
       const double span = part.blows ? part.h : (1 + 1e-6) * part.left;
       const double speed =
           contacts::meeting_of(gap, -island_.parting(touch), part.h > 0 ? closing.pull : 0, span).speed;

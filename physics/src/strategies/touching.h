@@ -2,7 +2,7 @@
 
 namespace tweenfall::strategies {
 
-/// What is nearer than this touches, m.
+/// Bodies nearer than this touch, m.
 constexpr double touching = 1e-6;
 
 }  // namespace tweenfall::strategies

@@ -12,7 +12,7 @@
 #include "strategies/separations/separations.h"
 #include "strategies/touching.h"
 
-/// How a world's bodies go through a step where it asks for other strategies than the usual ones.
+/// How a world's bodies go through a step if it asks for other strategies than the defaults.
 
 namespace tweenfall {
 
@@ -23,13 +23,13 @@ using contacts::ContactConstraint;
 using contacts::PointConstraint;
 using state::Body;
 
-/// Overlap that is as good as none, m.
+/// Overlap that counts as none, m.
 constexpr double no_depth = 1e-10;
 /// A time in which nothing moves by more than that, s.
 constexpr double instant = 1e-12;
-/// Instants of a step at which bodies meet; what still meets then is solved with the rest.
+/// Instants of a step at which bodies meet; what still meets after them is solved with the rest.
 constexpr int most_instants = 4096;
-/// At one instant: what is wedged would bounce to and fro for ever.
+/// Blows at one instant: a wedged body would bounce back and forth forever.
 constexpr int most_blows_at_once = 8;
 /// What meets within this part of a step meets now.
 constexpr double meets_now = 1e-7;
@@ -54,7 +54,7 @@ Place place_of(const Body& body) {
   return place;
 }
 
-/// When the first of a contact's points meet, faster than a tremble.
+/// When the first of a contact's points meet, faster than jitter.
 double time_of_blow(const ContactConstraint& contact, const std::vector<Body>& bodies,
                     const std::vector<forces::Load>& loads, double left, double step) {
   if (contact.impact_time > 0) return contact.impact_time;
@@ -73,8 +73,8 @@ double time_of_blow(const ContactConstraint& contact, const std::vector<Body>& b
   return first;
 }
 
-/// A contact as its bodies lie now; of no points when they are apart.
-/// @param find  whether there is a manifold of one whose points have been forgotten
+/// A contact for the present positions of its bodies; without points if they are apart.
+/// @param find  finds a manifold again for a contact whose points have been forgotten
 template <class Find>
 ContactConstraint overlap_now(const ContactConstraint& contact, const std::vector<Body>& bodies,
                               const std::vector<step::Start>& starts, const Find& find) {
@@ -85,7 +85,7 @@ ContactConstraint overlap_now(const ContactConstraint& contact, const std::vecto
       now.count = 0;
     return now;
   }
-  // Of a mesh or a field the triangle is known: it is taken for a plane.
+  // For a mesh or a field, the triangle is known: it is treated as a plane.
   ContactConstraint now = contact;
   const step::Start &from_a = starts[contact.a], &from_b = starts[contact.b];
   for (int i = 0; i < now.count; ++i) {
@@ -100,7 +100,7 @@ ContactConstraint overlap_now(const ContactConstraint& contact, const std::vecto
   return now;
 }
 
-/// What contacts come to in all parts of a step.
+/// Sums of contacts over all parts of a step.
 class Sums {
  public:
   void add(std::span<ContactConstraint* const> contacts) {
@@ -121,8 +121,8 @@ class Sums {
       sum.approach = std::max(sum.approach, approach);
     }
   }
-  /// Tells them as if they had come of one step; contacts that are there no more join in.
-  /// @param gone  where those stay until the step has been told
+  /// Reports them as if they had come from one step; contacts that have ended are added.
+  /// @param gone  keeps the ended ones until the step has been reported
   void finish(std::vector<ContactConstraint*>& active, std::vector<ContactConstraint>& gone, double dt) {
     gone.clear();
     gone.reserve(sums_.size());
@@ -135,7 +135,7 @@ class Sums {
     }
     std::sort(active.begin(), active.end(), is_before);
     for (ContactConstraint* contact : active) {
-      // Its manifold is not of the start of the step.
+      // Its manifold is not from the start of the step.
       contact->kept = false;
       contact->impact_time = dt;
       const auto found =
@@ -190,7 +190,7 @@ double World::Implementation::solve_by_strategies(const islands::IslandContents&
   };
   double off = 0;
   if (settings.collision == Detection::discrete) {
-    // All go on by the whole step; then whatever overlaps responds, and is taken apart.
+    // All move on by the whole step; then whatever overlaps responds, and is pushed apart.
     fly_all();
     std::vector<contacts::ContactConstraint*> met;
     for (contacts::ContactConstraint* contact : island.contacts) {
@@ -223,7 +223,7 @@ void World::Implementation::fly_alone(std::uint32_t index, double h, double dt) 
 }
 
 void World::Implementation::separate(std::span<contacts::ContactConstraint* const> overlapping) {
-  // Of a mesh or a field it is known where it was met at the start of the step.
+  // For a mesh or a field, it is known where it was met at the start of the step.
   const auto lost = [&](const contacts::ContactConstraint& contact) {
     return settings.collision != Detection::ahead && (surfaces::surface_of(bodies[contact.a].shape().solid) ||
                                                       surfaces::surface_of(bodies[contact.b].shape().solid));

@@ -14,7 +14,7 @@ namespace threads {
 namespace {
 
 constexpr std::size_t most_threads = 256;
-/// How long a thread looks out for work before it sleeps, and how long before it lets others have the processor: parts
+/// How long a thread spins for work before it sleeps, and how long before it yields the processor: parts
 /// of a step follow each other within microseconds.
 constexpr int looks_before_sleep = 4000, looks_before_yield = 400;
 
@@ -24,7 +24,7 @@ void pause() {
 #endif
 }
 
-/// Waits while a condition holds that will soon hold no more.
+/// Waits while a condition holds that will soon end.
 template <class Condition>
 void wait_while(const Condition& holds) {
   for (int looks = 0; holds(); ++looks)
@@ -41,8 +41,8 @@ void SerialExecutor::for_each(std::size_t count, const Work& work) {
   for (std::size_t i = 0; i < count; ++i) work(i);
 }
 
-/// One job at a time. A thread that wants to help says so in `helpers` before it looks whether the job is open; who
-/// closed the job waits for all helpers, so that nobody looks at a job that is being replaced.
+/// One job at a time. A thread that wants to help counts itself in `helpers` before it checks whether the job is open;
+/// whoever closed the job waits for all helpers, so that none reads a job that is being replaced.
 struct ThreadPool::Implementation {
   std::atomic<std::size_t> size{1};
   std::vector<std::thread> threads;
@@ -50,7 +50,7 @@ struct ThreadPool::Implementation {
   const Work* work = nullptr;          ///< of the job
   std::size_t count = 0;               ///< its parts
   std::atomic<std::size_t> next{0};    ///< part that nobody has taken
-  std::atomic<std::uint32_t> open{0};  ///< number of the job; 0 when there is none to help with
+  std::atomic<std::uint32_t> open{0};  ///< number of the job; 0 if there is none to help with
   std::atomic<std::uint32_t> bell{0};  ///< changes with every job
   std::atomic<int> helpers{0};
   std::atomic<bool> over{false};
@@ -60,7 +60,7 @@ struct ThreadPool::Implementation {
   }
 
   void help() {
-    // More threads than processors would only stand in each other's way by looking out.
+    // More threads than processors would only get in each other's way by spinning.
     const bool crowded = size.load() > std::thread::hardware_concurrency();
     const int last_look = crowded ? 0 : threads::looks_before_sleep;
     std::uint32_t heard = 0;
@@ -81,7 +81,7 @@ struct ThreadPool::Implementation {
     }
   }
 
-  /// As many as can be had: with fewer all is done, too.
+  /// Starts as many as possible: with fewer, all work gets done, too.
   void start() {
     threads.reserve(size - 1);
     try {

@@ -8,7 +8,7 @@
 
 namespace tweenfall::threads {
 
-/// Shares work out to an executor. Results must not depend on how it is cut.
+/// Distributes work to an executor. Results must not depend on how it is divided.
 class Workers {
  public:
   Workers() = default;
@@ -16,7 +16,7 @@ class Workers {
 
   [[nodiscard]] std::size_t threads() const { return executor_ ? executor_->threads() : 1; }
 
-  /// Calls part(i) for each i below `count`. What the part of the smallest number threw is thrown.
+  /// Calls part(i) for each i below `count`. Rethrows what the part with the smallest number threw.
   template <class Part>
   void parts(std::size_t count, const Part& part) const {
     if (!executor_ || count <= 1) {
@@ -41,7 +41,7 @@ class Workers {
     return std::min((count + least - 1) / least, ranges_per_thread * threads());
   }
   /// Calls range(number, begin, end) for ranges that follow each other from 0 to `count`.
-  /// @param least  items that are worth a part of their own; > 0
+  /// @param least  number of items that are worth a task of their own; > 0
   template <class Range>
   void numbered_ranges(std::size_t count, std::size_t least, const Range& range) const {
     const std::size_t ranges = range_count(count, least);

@@ -7,11 +7,11 @@ namespace tweenfall::planar::inner {
 
 namespace {
 
-/// Passes over all that may rebound: a blow goes through so long a row of bodies at least.
+/// Passes over all contacts that may rebound: a blow gets through a row of at least this many bodies.
 constexpr int most_passes = 60;
-/// Blows of two points of one contact that are nearer in time than this part of a sub-step are one.
+/// Blows of two points of one contact that are nearer in time than this part of a sub-step count as one.
 constexpr double at_once = 0.01;
-/// A rebound must be faster than what gravity takes of it in so many sub-steps.
+/// A rebound must be faster than what gravity takes from it in this many sub-steps.
 constexpr double trembles = 2;
 constexpr double slowest = 1e-6;  // m/s
 
@@ -22,7 +22,7 @@ double speed_of(const BodyRow& row, double normal_x, double normal_y, double tur
 
 }  // namespace
 
-/// Between blows bodies fly as gravity lets them: when the gap closes is the root of a square, and with it how fast.
+/// Between blows, bodies fly under gravity: when the gap closes is the root of a quadratic, and so is how fast.
 ContactSolver::Arrival ContactSolver::arrival(const ContactBlock& block, int lane, int i, double h) const {
   const PointRow& point = block.point[i];
   const std::uint32_t a = block.a[lane], b = block.b[lane];
@@ -47,7 +47,7 @@ ContactSolver::Arrival ContactSolver::arrival(const ContactBlock& block, int lan
   return arrival.speed > std::max(slowest, trembles * pull * h * parts_) ? arrival : Arrival{};
 }
 
-/// An impulse inside the sub-step, as if the bodies had begun it so that they now fly away from the blow.
+/// Applies an impulse inside the sub-step, as if the bodies had started it so that they now fly away from the blow.
 void ContactSolver::knock(const ContactBlock& block, int lane, double along, double across, int i, double when) {
   const PointRow& point = block.point[i];
   const double x = along * block.normal_x[lane] - across * block.normal_y[lane];
@@ -71,7 +71,7 @@ void ContactSolver::knock(const ContactBlock& block, int lane, double along, dou
        along * point.turn_b[lane] + across * point.slip_b[lane], 1);
 }
 
-/// Newton's law of restitution from the speed at which the points meet; both points of a contact at once. Friction is
+/// Newton's law of restitution, from the speed at which the points meet; both points of a contact at once. Friction is
 /// Coulomb's within the blow.
 bool ContactSolver::strike(const Bouncy& bouncy, double h) {
   const ContactBlock& block = blocks_[bouncy.place / lane_count];
@@ -91,7 +91,7 @@ bool ContactSolver::strike(const Bouncy& bouncy, double h) {
     const double both = block.inverse_mass_a[lane] + block.inverse_mass_b[lane] +
                         block.inverse_moment_a[lane] * one.turn_a[lane] * other.turn_a[lane] +
                         block.inverse_moment_b[lane] * one.turn_b[lane] * other.turn_b[lane];
-    // Each impulse alone, less what the other does at its point.
+    // Each impulse alone, minus the effect of the other at its point.
     const double part = one.mass[lane] * both, other_part = other.mass[lane] * both, rest = 1 - part * other_part;
     if (rest > 1e-9) {
       const double alone = impulse[0], other_alone = impulse[1];

@@ -11,7 +11,7 @@ namespace tweenfall::planar::inner {
 
 namespace {
 
-/// Gaps of what rebounds are left to the blows.
+/// Gaps of rebounding contacts are left to the blows.
 constexpr double unheld = 1e30;
 
 BodyRow row_of(const Body& body) {
@@ -132,7 +132,7 @@ void ContactSolver::pull(const Body& body, Makeup& makeup, std::uint32_t index, 
   const Vec2 speed = target.velocity + target.spin * quarter(arm);
   const Vec2 off = (target.position + arm - speed * ahead) - (body.center + Vec2(moved.x, moved.y));
   const double off_angle = (target.angle - target.spin * ahead) - (body.angle + moved.turn);
-  // What is left of it when its force is bounded.
+  // What is left of it when its force is limited.
   const auto bounded = [&](const Vec2& change, double inverse, double most) -> Vec2 {
     const double allowed = most * h * inverse, size = change.norm();
     if (size <= allowed) return change;
@@ -163,8 +163,8 @@ void ContactSolver::begin_sub_step(const Scene& scene, double h, int left) {
   }
 }
 
-/// Rows stay as they are through a step: what contacts gave a body in a sub-step they give it in the next to begin
-/// with.
+/// Rows stay as they are through a step: what contacts gave a body in one sub-step, they give it at the start of the
+/// next.
 void ContactSolver::note_given(const Scene& scene) {
   gifts_.resize(velocities_.size());
   for (const std::uint32_t i : scene.moving) {
@@ -182,7 +182,7 @@ void ContactSolver::give_again(const Scene& scene) {
   }
 }
 
-/// What was not pushed flies by the mean of its velocities, exactly; the rest goes by what the pushes left.
+/// A body that was not pushed flies by the mean of its velocities, exactly; others move by what the pushes left.
 void ContactSolver::move(const Scene& scene, double h) {
   for (const std::uint32_t i : scene.moving) {
     const BodyRow &v = velocities_[i], &unpushed = unpushed_[i], &start = starts_[i];

@@ -10,19 +10,19 @@
 
 namespace tweenfall::planar::inner {
 
-/// What a free body gains by itself, and what its damping leaves of it in a sub-step.
+/// What a free body gains without contacts, and what its damping leaves in a sub-step.
 struct Gain {
   double x = 0, y = 0, turn = 0;  ///< m/s^2, rad/s^2
   double keep = 1, keep_turn = 1;
 };
 
-/// Impulses of a step on one meeting, N s.
+/// Impulses of a step at one meeting, N s.
 struct Given {
   double normal[2] = {0, 0}, sideways[2] = {0, 0};
-  double approach = 0;  ///< greatest closing speed of a point as the step begins, m/s
+  double approach = 0;  ///< greatest closing speed of a point at the start of the step, m/s
 };
 
-/// What a step is solved for.
+/// The input of a step.
 struct Scene {
   std::vector<Body>& bodies;
   std::vector<Makeup>& makeups;
@@ -33,14 +33,14 @@ struct Scene {
   double push_out_speed = 0;
   double dt = 0;
   int sub_steps = 1;
-  bool relaxes_each = true;  ///< each sub-step ends firmly; else the last one alone
-  double warmth = 1;         ///< share of the impulses of the step before with which this one begins
-  double parts = 1;          ///< as many as it fits into the whole step
-  double kept = 1;  ///< how many times its impulses are those that the next one begins with; 0 for those before it
+  bool relaxes_each = true;  ///< each sub-step ends with hard passes; otherwise only the last one
+  double warmth = 1;         ///< share of the impulses of the step before with which this one starts
+  double parts = 1;          ///< how often the step fits into the whole step
+  double kept = 1;           ///< factor between its impulses and those the next one starts with; 0 for the earlier ones
 };
 
-/// Takes bodies through a step: in each sub-step velocities, blows of what rebounds, contacts that give way while
-/// bodies are moved, and, in each or at the end, once more firmly.
+/// Moves bodies through a step: in each sub-step velocities, blows of rebounding contacts, soft contacts while
+/// bodies are moved, and, in each or at the end, hard passes.
 class ContactSolver {
  public:
   void solve(Scene scene);
@@ -59,14 +59,14 @@ class ContactSolver {
   struct Rolling {
     std::uint32_t place = 0;  ///< block times lanes plus lane
     std::uint32_t active = 0;
-    double friction = 0;  ///< m
-    double mass = 0;      ///< that the couple turns, kg m^2
+    double friction = 0;  ///< length, m
+    double mass = 0;      ///< moment that the torque turns, kg m^2
     double impulse = 0;   ///< on b, of the sub-step, N m s
   };
   /// Where the bodies of a bouncy contact meet.
   struct Arrival {
     double when = 0;   ///< s from the start of the sub-step
-    double speed = 0;  ///< m/s; 0 when they do not
+    double speed = 0;  ///< m/s; 0 if they do not meet
   };
 
   void build(const Scene& scene);
@@ -86,9 +86,9 @@ class ContactSolver {
   void store(const Scene& scene);
   void finish(const Scene& scene);
 
-  double parts_ = 1;  ///< as many as the step at hand fits into the whole one
+  double parts_ = 1;  ///< how often the present step fits into the whole one
   std::vector<BodyRow> velocities_, starts_, unpushed_, displacements_;
-  std::vector<BodyRow> gifts_;  ///< of contacts, in the last sub-step
+  std::vector<BodyRow> gifts_;  ///< by contacts, in the last sub-step
   std::vector<double> struck_at_;
   std::vector<ContactBlock> blocks_;
   std::vector<std::uint32_t> colors_, places_;

@@ -6,17 +6,17 @@ namespace tweenfall::planar::inner {
 
 namespace {
 
-/// Few contacts can afford that a high stack stands; a heap of many sinks as one in space does.
+/// With few contacts there is time to keep a high stack standing; a heap of many sinks as in space.
 constexpr int fewest = 4, most_of_few = 24, most_of_many = 10;
 constexpr std::size_t few = 128;
-/// From this on there are as many as there may be.
+/// At this depth the number of sub-steps reaches its limit.
 constexpr std::uint32_t deep_of_few = 20, deep_of_many = 50;
 
 }  // namespace
 
 std::uint32_t Depth::deepest(const std::vector<Body>& bodies, const std::vector<Meeting>& meetings,
                              std::span<const std::uint32_t> active) {
-  // Meetings are sorted by their bodies, which mostly were added from the bottom to the top or the other way around.
+  // Meetings are sorted by their bodies, which were mostly added from bottom to top or the other way around.
   constexpr int most_passes = 12;
   constexpr std::uint32_t nobody = 0xfffffffe;
   levels_.resize(bodies.size());
@@ -24,7 +24,7 @@ std::uint32_t Depth::deepest(const std::vector<Body>& bodies, const std::vector<
   for (const std::uint32_t k : active)
     for (const std::uint32_t end : {meetings[k].a, meetings[k].b}) {
       const Body& body = bodies[end];
-      // What is pushed from the side may be carried by the whole row, however near the floor is.
+      // A body pushed from the side may be carried by the whole row, however near the floor is.
       pushed = pushed || (!body.movable && body.under_way);
       levels_[end] = !body.movable || body.asleep ? 0 : nobody;
     }
@@ -47,7 +47,7 @@ std::uint32_t Depth::deepest(const std::vector<Body>& bodies, const std::vector<
     for (const std::uint32_t end : {meetings[k].a, meetings[k].b}) {
       if (levels_[end] == 0) continue;
       if (levels_[end] != nobody) deepest = std::max(deepest, levels_[end]);
-      // Each is counted once for each of its contacts: that is no less than they are.
+      // Each is counted once per contact: that is no less than their number.
       ++movable;
     }
   return changed || pushed ? movable : deepest;

@@ -38,7 +38,7 @@ struct PlaneRows {
     scatter(row.x.of, row.y.of, row.turn.of, Number(0.0).of, rows);
   }
 
-  /// What was given along the normal and across it, to both bodies.
+  /// Applies impulses along the normal and across it to both bodies.
   TWEENFALL_LANES static void push(const ContactBlock& block, const Number& along, const Number& across, Row& a,
                                    Row& b) {
     const Number normal_x = block.normal_x, normal_y = block.normal_y;
@@ -68,8 +68,8 @@ struct PlaneRows {
     put_back(b, velocities, block.b);
   }
 
-  /// Friction first: what stands firm has the last word. Along the normal and across it the relative speed is kept by
-  /// itself, so that a row changes numbers and not vectors.
+  /// Friction first: normals have the last word. The relative speed along the normal and across it is stored by
+  /// itself, so that a row changes numbers rather than vectors.
   /// Source of the soft rows: Catto, Solver2D, 2024.
   TWEENFALL_LANES static void solve(ContactBlock& block, BodyRow* velocities, const BodyRow* displacements,
                                     const PassRule& rule) {

@@ -8,7 +8,7 @@ namespace tweenfall::planar::inner {
 
 namespace {
 
-/// Of two sides that are as good within this part of the smaller size, the first body's is taken, so that the points
+/// If two sides are equally good within this part of the smaller size, the first body's is taken, so that the points
 /// keep their names from step to step.
 constexpr double alike = 1e-4;
 
@@ -27,7 +27,7 @@ struct Sides {
 struct BestSide {
   double apart = -std::numeric_limits<double>::infinity();  ///< of the cores, along its normal
   std::size_t side = 0;
-  std::size_t corner = 0;  ///< of the other, the one nearest to the side's line
+  std::size_t corner = 0;  ///< of the other plate, the one nearest to the side's line
 };
 
 std::size_t lowest(const Sides& of, const Vec2& normal) {
@@ -94,13 +94,13 @@ struct Above {
   std::uint32_t feature = 0;
 };
 
-/// Of one round end that lies beyond the middle of the other's: their centers may be one.
+/// For a round end that lies beyond the middle of the other's; their centers may coincide.
 Vec2 direction(const Vec2& from, const Vec2& to) {
   const double length = (to - from).norm();
   return length > std::numeric_limits<double>::min() ? Vec2((to - from) / length) : Vec2(0, 1);
 }
 
-/// Whether what has no area itself lies beyond the end of a lone side, on its line: no side's normal tells.
+/// Whether something without area lies beyond the end of a lone side, on its line: no side's normal separates them.
 bool beyond(const Sides& side, const Sides& other) {
   if (side.count != 2 || other.count > 2) return false;
   const Vec2 along = side.at(1) - side.at(0);
@@ -109,7 +109,7 @@ bool beyond(const Sides& side, const Sides& other) {
   return (first < 0 && last < 0) || (first > length && last > length);
 }
 
-/// Results in a's axes.
+/// Computes results in a's axes.
 class Finder {
  public:
   Finder(const Sides& a, const Sides& b, double limit) : a_(a), b_(b), limit_(limit), skins_(a.skin + b.skin) {}
@@ -159,7 +159,7 @@ class Finder {
     add_single(near.on_a, near.on_b, direction(near.on_a, near.on_b), near.feature);
   }
 
-  /// @return false when two corners are nearer than what lies above the side
+  /// @return false when two corners are nearer than the points above the side
   bool touch_side(const BestSide& best, double slack) {
     const Sides &of = flipped_ ? b_ : a_, &other = flipped_ ? a_ : b_;
     const Vec2 normal = of.normal(best.side), start = of.at(best.side), along = quarter(normal);
@@ -175,7 +175,7 @@ class Finder {
       points[0] = above(0, 0, 0);
       if (best.apart > 0 && !(points[0].along >= 0 && points[0].along <= length)) return false;
     } else {
-      // The side of the other that looks at this one.
+      // The side of the other that faces this one.
       const std::size_t before = other.before(best.corner);
       const std::size_t facing =
           normal.dot(other.normal(before)) < normal.dot(other.normal(best.corner)) ? before : best.corner;
@@ -199,7 +199,7 @@ class Finder {
     return true;
   }
 
-  /// To what lies above the side from 0 to `length`. @return how many points there are
+  /// Clips to the points above the side from 0 to `length`. @return how many points there are
   static int clip(std::array<Above, 2>& points, double length) {
     const Above first = points[0], second = points[1];
     const double span = second.along - first.along;

@@ -14,7 +14,7 @@ struct Placed {
   Turn turn;
 };
 
-/// A point of contact: where the two cores, without their skins, come nearest.
+/// A point of contact: where the two cores, without their skins, are nearest.
 struct FoundPoint {
   Vec2 core_a{0, 0}, core_b{0, 0};  ///< from the centers, world axes, m
   double gap = 0;                   ///< between the skins, m
@@ -27,8 +27,8 @@ struct Found {
   int count = 0;
 };
 
-/// Where two plates touch, or nearly: points with a gap up to `limit`. Of two that are apart the nearest is always
-/// among the points. Sources: Ericson, Real-Time Collision Detection, 2005, 5.2 (separating axes), 8.3 (clipping).
+/// Where two plates touch, or nearly: points with a gap up to `limit`. For separated plates, the nearest point is
+/// always among them. Sources: Ericson, Real-Time Collision Detection, 2005, 5.2 (separating axes), 8.3 (clipping).
 [[nodiscard]] Found find_manifold(const Placed& a, const Placed& b, double limit);
 
 }  // namespace tweenfall::planar::inner

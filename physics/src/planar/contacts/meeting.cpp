@@ -13,18 +13,18 @@ using inner::Meeting;
 namespace inner {
 namespace {
 
-/// Points are kept while the bodies have moved against each other by no more than this part of the smaller reach, and
-/// turned by no more than this.
+/// Points are kept as long as the bodies have moved relative to each other by at most this part of the smaller reach,
+/// and turned by at most this.
 constexpr double kept_way = 1e-3, kept_turn = 1e-3;
-/// Bodies that may come nearer in a step than this part of the thinner one meet where they will be then. Of circles the
-/// normal turns with every bit of the way.
+/// Bodies that may approach in a step by more than this part of the thinner one are tested where they will then be. The
+/// normal of circles turns with any motion.
 constexpr double quick = 0.25, quick_of_round = 0.01;
 constexpr int most_advances = 24;
 
-/// What meets of a body: all of it, or a part.
+/// A meeting body, or a part of it.
 struct Side {
-  double size = 0;      ///< from its middle to its farthest point, m; 0 for a half-plane
-  double leverage = 1;  ///< what a turn of the body moves there, in parts of that size and turn; >= 1
+  double size = 0;      ///< from its center to its farthest point, m; 0 for a half-plane
+  double leverage = 1;  ///< how far a turn of the body moves it, relative to that size times the turn; >= 1
   bool lone = false;    ///< a circle
 };
 
@@ -42,7 +42,7 @@ Placed later(const Body& body, const Plate& plate, const Vec2& way, double share
   return {&plate, body.center + share * way, body.turn};
 }
 
-/// Whether two parts are farther apart than that, by the circles around them.
+/// Whether two parts are farther apart than `limit`, by the circles around them.
 bool are_far(const Body& a, const Plate& plate_a, const Body& b, const Plate& plate_b, double limit) {
   if (plate_a.endless || plate_b.endless) return false;
   const Vec2 apart = (b.center + b.turn * plate_b.middle) - (a.center + a.turn * plate_a.middle);
@@ -58,7 +58,7 @@ bool keeps_its_points(const Meeting& meeting, const Body& a, const Side& side_a,
   return off.cos > 0 && std::abs(off.sin) * std::max(side_a.leverage, side_b.leverage) <= kept_turn;
 }
 
-/// Points that were there before begin with the impulses that they had. What none of them is left of is not the
+/// Earlier points pass on their impulses. If none of the earlier points is left, it is not the
 /// contact that resisted rolling.
 void take_over(const Meeting& before, Meeting& meeting) {
   meeting.rolling = 0;
@@ -91,7 +91,7 @@ void adopt(const Found& found, const Body& a, const Turn& turn_a, const Turn& tu
 }  // namespace
 }  // namespace inner
 
-/// Quick bodies meet by conservative advancement along straight ways, turning not at all: each time they go on by as
+/// Fast bodies meet by conservative advancement along straight paths, without turning: each time they advance by as
 /// much as the gap allows. Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, 2.3.
 void World::Implementation::look_at(Meeting& meeting, double dt) {
   const Body &a = bodies[meeting.a], &b = bodies[meeting.b];
@@ -138,7 +138,7 @@ void World::Implementation::look_at(Meeting& meeting, double dt) {
     if (gap <= enough) break;
     const double closing = found.normal.dot(way_a - way_b);
     if (!(share * closing + gap < (1 + 1e-9) * closing)) {
-      // They pass: only what is close now may yet touch, by what others do to them.
+      // They pass: only what is close now may still touch, if others push it.
       if (gap > close) found.count = 0;
       break;
     }

@@ -11,7 +11,7 @@ namespace tweenfall::planar::inner {
 
 namespace {
 
-/// Room to spare, besides that for what lies ahead, in parts of a body's reach.
+/// How much boxes are enlarged, besides the room for what lies ahead, in parts of a body's reach.
 constexpr double spare = 0.05;
 /// Steps like this one for which a box has room.
 constexpr double foresight = 4;
@@ -83,8 +83,8 @@ void NearPairs::restore(const std::vector<Body>& bodies, const std::vector<Makeu
   tree_.settle();
 }
 
-/// How many that move by themselves it is near, counted as far as it matters.
-/// @param all  or only those that have as many neighbors as matter
+/// How many moving bodies are near it, counted no further than it matters.
+/// @param all  counts all, or only those that have so many neighbors themselves
 std::uint32_t NearPairs::neighbors(std::uint32_t index, const std::vector<Body>& bodies,
                                    const std::vector<Makeup>& makeups, bool all) {
   std::uint32_t count = 0;
@@ -113,7 +113,7 @@ void NearPairs::look_around(std::uint32_t index, const std::vector<Body>& bodies
   const Makeup& makeup = makeups[index];
   seen_.clear();
   const auto see = [&](std::uint32_t other) {
-    // Of two that are both looked around for, the first sees the other.
+    // If both are searched around, the first finds the other.
     if (other == index || (is_renewed_[other] && other < index)) return;
     if (may_meet(bodies[index], makeup, bodies[other], makeups[other])) seen_.push_back(other);
   };
@@ -222,7 +222,7 @@ void NearPairs::update(std::vector<Body>& bodies, const std::vector<Makeup>& mak
   Pair counted(0, 0);
   for (const Meeting& meeting : meetings) {
     if (is_renewed_[meeting.a] || is_renewed_[meeting.b]) continue;
-    // Parts of one pair are one.
+    // Parts of one pair count once.
     const Pair pair(meeting.a, meeting.b);
     if (std::exchange(counted, pair) == pair) continue;
     if (!bodies[meeting.a].movable || !bodies[meeting.b].movable) continue;

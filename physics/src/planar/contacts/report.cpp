@@ -9,7 +9,7 @@ using inner::Body;
 using inner::Makeup;
 using inner::Meeting;
 
-/// @param given  null for what sleeps
+/// @param given  null for a sleeping pair
 void World::Implementation::report(Meeting& meeting, const inner::Given* given) {
   const Body &a = bodies[meeting.a], &b = bodies[meeting.b];
   Contact& contact = contacts.emplace_back();
@@ -66,7 +66,7 @@ void World::Implementation::report() {
   ended.clear();
   auto now = contacts.begin();
   for (const Contact& contact : contacts_before) {
-    // Of several parts that touched, all have let go.
+    // If several parts touched, all of them have separated.
     if (!ended.empty() && ended.back().a == contact.a && ended.back().b == contact.b) continue;
     const auto key = [](const Contact& its) { return std::pair(its.a.index, its.b.index); };
     while (now != contacts.end() && key(*now) < key(contact)) ++now;
@@ -93,7 +93,7 @@ void World::Implementation::sense() {
   };
   const auto order = [&](const SensorOverlap& one, const SensorOverlap& other) { return key(one) < key(other); };
   std::sort(overlaps.begin(), overlaps.end(), order);
-  // Whichever of their parts do.
+  // Whichever of their parts overlap.
   const auto same = [&](const SensorOverlap& one, const SensorOverlap& other) { return key(one) == key(other); };
   overlaps.erase(std::unique(overlaps.begin(), overlaps.end(), same), overlaps.end());
   for (SensorOverlap& overlap : overlaps)

@@ -19,9 +19,9 @@ void ContactSolver::warm_start_rolling() {
               rolling.impulse);
 }
 
-/// A couple against the spin of b against a, at most the rolling friction times what presses the two together:
-/// Coulomb's law, of spins. Source of the coefficient that is a length: Meriam and Kraige, Engineering Mechanics:
-/// Statics, on rolling resistance.
+/// A torque against the spin of b relative to a, at most the rolling friction times the force that presses them
+/// together: Coulomb's law for spins. Source of the coefficient that is a length: Meriam and Kraige, Engineering
+/// Mechanics: Statics, on rolling resistance.
 void ContactSolver::resist_rolling() {
   for (Rolling& rolling : rolling_) {
     const ContactBlock& block = blocks_[rolling.place / lane_count];

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Questions to plates, which those to shapes and to worlds are made of.
+/// Queries on plates, on which those on shapes and worlds are built.
 
 #include <tweenfall/physics/planar_query.h>
 
@@ -16,12 +16,12 @@ struct Ray {
   double length = 0;                 ///< m
 };
 
-// These throw std::invalid_argument that tells what is wrong.
+// These throw std::invalid_argument saying what is wrong.
 [[nodiscard]] Ray checked_ray(const Vec2& from, const Vec2& direction, double length);
 [[nodiscard]] std::vector<Plate> checked_plates(const Shape& shape, const Place& place);  ///< about the node
 void demand_end(const Shape& shape);
 
-/// All plates of a shape, where it is.
+/// All plates of a shape, at its place.
 struct Figure {
   const std::vector<Plate>& plates;
   Vec2 center{0, 0};

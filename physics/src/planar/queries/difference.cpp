@@ -8,14 +8,14 @@ namespace tweenfall::planar::inner {
 namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
-/// Sides of a round polygon reach so far beyond their ends, in parts of their length, that no ray slips through.
+/// Sides of a round polygon are extended beyond their ends by this part of their length, so that no ray slips through.
 constexpr double seam = 1e-12;
 
 Vec2 corner_of(const Placed& placed, std::size_t i) {
   return placed.center + placed.turn * placed.plate->corners[i].at;
 }
 
-/// Which of two sides comes first when one goes around from the lowest corner, counterclockwise: below 0 the first.
+/// Which of two sides comes first when going around from the lowest corner, counterclockwise: below 0 the first.
 int order(const Vec2& first, const Vec2& second) {
   const auto back = [](const Vec2& side) { return side.y() < 0 || (side.y() == 0 && side.x() < 0); };
   if (back(first) != back(second)) return back(first) ? 1 : -1;
@@ -23,10 +23,10 @@ int order(const Vec2& first, const Vec2& second) {
   return turn > 0 ? -1 : turn < 0 ? 1 : 0;
 }
 
-/// The corners of a plate one after the other, from the one that comes first.
+/// The corners of a plate in order, starting from the one that comes first.
 struct Around {
   const Placed& placed;
-  double sign;  ///< -1: of the plate turned by half a turn about the origin
+  double sign;  ///< -1: for the plate turned by half a turn about the origin
   std::size_t first = 0, count = 0, sides = 0;
 
   Around(const Placed& whose, double way) : placed(whose), sign(way), count(whose.plate->corners.size()) {
@@ -99,7 +99,7 @@ bool Difference::holds_none() const {
   return true;
 }
 
-/// Of cores that overlap.
+/// For cores that overlap.
 Difference::Nearest Difference::overlapping() const {
   Nearest found;
   double room = nowhere;
@@ -137,7 +137,7 @@ Difference::Nearest Difference::nearest() const {
     found.on_b = tips_[0].on_b;
     const double apart = -normal_.dot(tips_[0].at);
     found.gap = apart - skins;
-    // Of what lies behind the line its own point is one of both.
+    // If the point lies behind the line, it is common to both.
     if (apart <= 0) found.common = tips_[0].on_a;
     return found;
   }
@@ -167,7 +167,7 @@ std::optional<Difference::Met> Difference::met(const Vec2& direction, double len
     const double closing = -normal_.dot(direction), apart = -normal_.dot(tips_[0].at) - (skin_a_ + skin_b_);
     if (!(closing > 0) || !(apart <= length * closing)) return std::nullopt;
     const double way = std::max(0.0, apart / closing);
-    // A line is met where the other comes to it.
+    // A half-plane is met at the point where the other reaches its line.
     return Met{way, tips_[0].on_a + way * direction - skin_a_ * normal_, normal_};
   }
   return skin_a_ + skin_b_ > 0 ? met_round(direction, length) : met_sharp(direction, length);

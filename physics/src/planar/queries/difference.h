@@ -7,28 +7,28 @@
 
 namespace tweenfall::planar::inner {
 
-/// All ways from a point of one plate to a point of another: a convex polygon, or a half-plane, without the skins. Two
-/// plates have a point in common where 0 is one of these ways.
+/// All displacements from a point of one plate to a point of another: a convex polygon, or a half-plane, without the
+/// skins. Two plates have a point in common if 0 is one of these displacements.
 class Difference {
  public:
   /// Not for two half-planes.
   Difference(const Placed& a, const Placed& b);
 
-  /// Of 0.
+  /// The nearest point to 0.
   struct Nearest {
-    Vec2 normal{0, 1};             ///< unit, out of b: the short way by which a leaves it
-    double gap = 0;                ///< between the skins, m; negative where they overlap
+    Vec2 normal{0, 1};             ///< unit, out of b: the shortest way for a to leave it
+    double gap = 0;                ///< between the skins, m; negative if they overlap
     Vec2 on_a{0, 0}, on_b{0, 0};   ///< of the cores, world
     std::optional<Vec2> common{};  ///< a point of both cores
   };
   [[nodiscard]] Nearest nearest() const;
 
   struct Met {
-    double way = 0;  ///< that a has gone until it meets b, m
+    double way = 0;  ///< how far a has moved until it meets b, m
     Vec2 point{0, 0};
     Vec2 normal{0, 1};  ///< unit, out of b
   };
-  /// Where a first meets b, from which it is apart; nothing for what it passes by.
+  /// Where a first meets b, from which it is apart; empty if it passes by.
   [[nodiscard]] std::optional<Met> met(const Vec2& direction, double length) const;
 
  private:

@@ -10,7 +10,7 @@ namespace inner {
 
 namespace {
 
-/// Parts of a size, and of a coordinate: a gap that is none.
+/// Relative to a size, and to a coordinate: a gap that counts as none.
 constexpr double met_size = 1e-13, met_place = 1e-15;
 
 Figure on_node(const std::vector<Plate>& plates, const Place& place) {
@@ -69,7 +69,7 @@ Separation separation_of(const Placed& a, const Placed& b) {
   const double skin_a = a.plate->skin, skin_b = b.plate->skin;
   if (nearest.gap > 0)
     return {nearest.gap, nearest.on_a - skin_a * nearest.normal, nearest.on_b + skin_b * nearest.normal};
-  // Only the skins overlap: somewhere between the cores both are.
+  // Only the skins overlap: a point between the cores is in both.
   const double part = skin_a + skin_b > 0 ? skin_a / (skin_a + skin_b) : 0;
   const Vec2 common = nearest.on_a + part * (nearest.on_b - nearest.on_a);
   return {0, common, common};
@@ -105,7 +105,7 @@ std::optional<RayHit> hit_by(const Ray& ray, const Figure& figure) {
   return first;
 }
 
-/// Of parts that overlap from the start the first is told.
+/// Of parts that overlap from the start, the first is reported.
 std::optional<ShapeHit> hit_by(const Figure& moving, const Vec2& displacement, const Figure& figure) {
   std::optional<ShapeHit> first;
   for (const Plate& own : moving.plates)

@@ -9,7 +9,7 @@
 
 namespace tweenfall::planar {
 
-/// What questions see of a world.
+/// Access of queries to a world.
 struct Questions {
   [[nodiscard]] static const World::Implementation& inside(const World& world) { return world.inside(); }
 
@@ -23,7 +23,7 @@ struct Questions {
     return figure(inside(asked), body.index);
   }
 
-  /// `ask(body, figure)` for each that the filter lets through, by index.
+  /// Calls `ask(body, figure)` for each body that the filter lets through, by index.
   template <class Ask>
   static void each(const World& asked, const QueryFilter& filter, const Ask& ask) {
     const World::Implementation& world = inside(asked);
@@ -41,7 +41,7 @@ struct Questions {
 namespace inner {
 namespace {
 
-/// What is farther from a point than this by no more is looked at all the same: parts of the distance.
+/// Relative tolerance of distances within which bodies are still examined.
 constexpr double slack = 1e-12;
 
 double reach_of(const std::vector<Plate>& plates) {
@@ -50,7 +50,7 @@ double reach_of(const std::vector<Plate>& plates) {
   return reach;
 }
 
-/// Whether a circle about a figure comes near enough to a way to be met.
+/// Whether the circle around a figure comes near enough to a path to be met.
 bool may_meet(const Figure& figure, const Vec2& from, const Vec2& direction, double length, double room) {
   if (figure.endless()) return true;
   const Vec2 to = figure.center - from;

@@ -21,7 +21,7 @@ struct ConvexHull::Data {
   MeshMeasures measures;
   double inner_radius = 0, outer_radius = 0;
 
-  /// With planes as thick as `flat`; false when rounding spoils it.
+  /// With planes as thick as `flat`; false if rounding spoils it.
   bool make(std::span<const Vec3> points, double flat);
   /// From the vertices, and each face's corners among them.
   bool assemble(std::span<const std::vector<std::uint32_t>> loops);
@@ -33,10 +33,10 @@ struct ConvexHull::Data {
 namespace shapes {
 namespace {
 
-/// How often planes may be taken for thicker, and how much each time.
+/// How often the thickness of planes may be increased, and by which factor each time.
 constexpr int most_attempts = 4;
 constexpr double thickening = 8;
-/// Thicknesses by which a point may lie beyond a face.
+/// How far a point may lie beyond a face, in thicknesses.
 constexpr double slack = 32;
 constexpr double most_slack = 2 * slack * thickening * thickening * thickening;
 
@@ -66,7 +66,7 @@ void require_usable(std::span<const Vec3> points) {
                               " points hangs on rounding errors; leave out points that nearly coincide");
 }
 
-/// The normal by the area that the loop encloses (Newell), the offset by the farthest of all vertices.
+/// The normal from the area that the loop encloses (Newell), the offset from the farthest of all vertices.
 ConvexHull::Face face_of(std::span<const Vec3> vertices, std::span<const std::uint32_t> loop, std::uint32_t first) {
   Vec3 area(0, 0, 0);
   for (std::size_t i = 1; i + 1 < loop.size(); ++i)
@@ -82,7 +82,7 @@ ConvexHull::Face face_of(std::span<const Vec3> vertices, std::span<const std::ui
 
 bool ConvexHull::Data::make(std::span<const Vec3> points, double flat) {
   const std::vector<std::vector<std::uint32_t>> loops = shapes::hull_polygons(points, flat);
-  // Vertices get their numbers in the order of the points.
+  // Vertices are numbered in the order of the points.
   std::vector<std::uint32_t> number(points.size(), 0);
   for (const auto& loop : loops)
     for (const std::uint32_t corner : loop) number[corner] = 1;
@@ -91,7 +91,7 @@ bool ConvexHull::Data::make(std::span<const Vec3> points, double flat) {
     number[i] = static_cast<std::uint32_t>(vertices.size());
     vertices.push_back(points[i]);
   }
-  if (vertices.size() > most_vertices) return true;  // which the caller refuses
+  if (vertices.size() > most_vertices) return true;  // the caller refuses this
   std::vector<std::vector<std::uint32_t>> numbered = loops;
   for (auto& loop : numbered)
     for (std::uint32_t& corner : loop) corner = number[corner];
@@ -107,7 +107,7 @@ bool ConvexHull::Data::assemble(std::span<const std::vector<std::uint32_t>> loop
   return connect();
 }
 
-/// Edges, which have a face on either side.
+/// Finds the edges; each has a face on either side.
 bool ConvexHull::Data::connect() {
   using DirectedEdge = std::array<std::uint32_t, 3>;  // from, to, face
   std::vector<DirectedEdge> directed;
@@ -131,7 +131,7 @@ bool ConvexHull::Data::connect() {
   return vertices.size() + faces.size() == edges.size() + 2;
 }
 
-/// All points behind all faces, and all faces flat.
+/// Whether all points are behind all faces, and all faces are flat.
 bool ConvexHull::Data::holds(std::span<const Vec3> points, double within) const {
   for (const Face& face : faces) {
     for (const Vec3& point : points)
@@ -145,7 +145,7 @@ bool ConvexHull::Data::holds(std::span<const Vec3> points, double within) const 
 ConvexHull::ConvexHull(std::span<const Vec3> points) {
   shapes::require_usable(points);
   std::shared_ptr<Data> data;
-  // Points that are not exact to the usual thickness of planes may be to a greater one.
+  // Points that are too inexact for the usual thickness of planes may suit a greater one.
   double flat = shapes::flat_distance(points);
   for (int attempt = 0; attempt < shapes::most_attempts && !data; ++attempt, flat *= shapes::thickening) {
     auto made = std::make_shared<Data>();

@@ -49,7 +49,7 @@ std::vector<std::uint32_t> plane_regions(std::span<const Vec3> points, const std
   return region;
 }
 
-/// The border of a region from its smallest corner on; empty when it is not one simple loop.
+/// The border of a region, starting from its smallest corner; empty if it is not one simple loop.
 HullLoop border(const std::vector<HullTriangle>& triangles, const std::vector<std::uint32_t>& region,
                 const std::vector<std::uint32_t>& members, std::vector<std::uint32_t>& next) {
   HullLoop starts;
@@ -73,7 +73,7 @@ HullLoop border(const std::vector<HullTriangle>& triangles, const std::vector<st
   return loop.size() == starts.size() ? loop : HullLoop{};
 }
 
-/// Takes out vertices at which only two faces meet, on a straight edge, and faces of which that leaves nothing.
+/// Removes vertices at which only two faces meet, on a straight edge, and faces of which nothing then remains.
 void straighten(std::vector<HullLoop>& loops, std::size_t points) {
   std::vector<int> faces(points);
   bool changed = true;
@@ -92,7 +92,7 @@ void straighten(std::vector<HullLoop>& loops, std::size_t points) {
 
 std::vector<std::vector<std::uint32_t>> hull_polygons(std::span<const Vec3> points, double flat) {
   const std::vector<HullTriangle> triangles = hull_triangles(points, flat);
-  // Twice the thickness of planes on either side: the triangles of one plane each lie anywhere within it.
+  // Twice the thickness of planes on either side: the triangles of one plane lie anywhere within it.
   std::vector<std::uint32_t> region = plane_regions(points, triangles, 4 * flat);
   std::vector<std::vector<std::uint32_t>> members(triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) members[region[i]].push_back(i);

@@ -8,9 +8,9 @@
 
 namespace tweenfall::shapes {
 
-/// The faces of the points' convex hull: each the indices of its corners, counter-clockwise seen from outside, from the
-/// smallest on; the faces in the order of these lists.
-/// @param flat  how near to a plane points lie in it, m
+/// The faces of the points' convex hull: each is a list of its corners' indices, counter-clockwise seen from outside,
+/// starting from the smallest; the faces are sorted by these lists.
+/// @param flat  distance from a plane within which points lie in it, m
 /// @throws std::invalid_argument for points that all lie in one plane
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> hull_polygons(std::span<const Vec3> points, double flat);
 

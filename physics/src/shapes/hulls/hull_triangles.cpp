@@ -16,7 +16,7 @@ struct Facet {
   HullTriangle triangle;
   Vec3 normal{0, 0, 0};
   double offset = 0;
-  std::vector<std::uint32_t> outside{};  ///< points above this facet, each told to one facet alone
+  std::vector<std::uint32_t> outside{};  ///< points above this facet; each point is in the list of one facet only
   bool alive = true;
 };
 
@@ -116,7 +116,7 @@ class QuickHull {
     for (std::uint32_t i = 0; i < points_.size(); ++i) assign(i, 0);
   }
 
-  /// Tells a point to the facet, from `first` on, above which it is highest.
+  /// Assigns a point to the facet, from `first` on, above which it is highest.
   void assign(std::uint32_t point, std::uint32_t first) {
     double most = flat_;
     std::uint32_t best = nobody;
@@ -130,7 +130,8 @@ class QuickHull {
     if (best != nobody) facets_[best].outside.push_back(point);
   }
 
-  /// Facets that the point sees, connected with the first, and their border; false when that is not one simple loop.
+  /// Finds the facets that the point sees, connected with the first, and their border; false unless that is one simple
+  /// loop.
   bool look(std::uint32_t point, std::uint32_t first, double threshold) {
     visible_ = {first};
     horizon_.clear();
@@ -181,7 +182,7 @@ class QuickHull {
     });
     const std::uint32_t point = *farthest;
     outside.erase(farthest);
-    // What lies in one plane with the point is seen too, unless rounding tears the border.
+    // Facets in one plane with the point are seen too, unless rounding tears the border.
     if (!look(point, index, -flat_) && !look(point, index, 0) && !look(point, index, flat_)) return;
     const auto first = static_cast<std::uint32_t>(facets_.size());
     for (const HorizonEdge& edge : horizon_) {

@@ -9,7 +9,7 @@
 
 namespace tweenfall::shapes {
 
-/// How near to a plane points lie in it: above what single precision leaves of a coordinate, m.
+/// Distance from a plane within which points lie in it: above what single precision leaves of a coordinate, m.
 [[nodiscard]] double flat_distance(std::span<const Vec3> points) noexcept;
 
 struct HullTriangle {
@@ -18,7 +18,7 @@ struct HullTriangle {
 };
 
 /// The convex hull as a closed surface of triangles, by Quickhull with planes as thick as `flat`: a point within that
-/// of a plane lies in it, and takes the triangles of that plane along when it is added, so that no sliver comes to be.
+/// of a plane lies in it, and removes the triangles of that plane when it is added, so that no sliver arises.
 /// Source: Barber, Dobkin, Huhdanpaa, The Quickhull algorithm for convex hulls, ACM TOMS 22, 1996.
 /// @throws std::invalid_argument for points that all lie in one plane
 [[nodiscard]] std::vector<HullTriangle> hull_triangles(std::span<const Vec3> points, double flat);

@@ -2,7 +2,7 @@
 
 namespace tweenfall::strategies {
 
-/// The lighter goes back by more: m2 / (m1 + m2) of the overlap is the first one's, so that their center of mass stays
+/// The lighter goes back by more: the first one by m2 / (m1 + m2) of the overlap, so that their center of mass stays
 /// where it is.
 void by_mass(Overlap& overlap) {
   const double depth = overlap.depth(), ease = overlap.a.inverse_mass + overlap.b.inverse_mass;

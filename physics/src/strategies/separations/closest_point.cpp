@@ -2,8 +2,8 @@
 
 namespace tweenfall::strategies {
 
-/// The quick one: one of the two stays where it is, and the other is put at the closest place where it touches from
-/// outside. Of two that can move the second is.
+/// The fast method: one of the two stays where it is, and the other is put at the closest place where it touches from
+/// outside. If both can move, the second one is put there.
 void closest_point(Overlap& overlap) {
   const double depth = overlap.depth();
   overlap.part(overlap.b.movable ? 0 : depth, overlap.b.movable ? depth : 0);

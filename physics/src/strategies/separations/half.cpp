@@ -2,7 +2,7 @@
 
 namespace tweenfall::strategies {
 
-/// Each goes back by half the overlap, whatever it weighs; what cannot move leaves all of it to the other.
+/// Each goes back by half the overlap, whatever its mass; if one cannot move, the other goes back by all of it.
 void half(Overlap& overlap) {
   const double depth = overlap.depth();
   overlap.part(!overlap.a.movable  ? 0

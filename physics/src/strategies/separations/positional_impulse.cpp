@@ -6,8 +6,8 @@ namespace tweenfall::strategies {
 
 namespace {
 
-/// As an impulse changes a velocity, so this changes a place: by what goes through the center of mass it is moved, and
-/// by the arm turned.
+/// As an impulse changes a velocity, this changes a position: it is moved at the center of mass, and turned by the
+/// arm.
 void nudge(Place& place, const Vec3& impulse, const Vec3& arm) {
   place.center += place.inverse_mass * impulse;
   place.rotation = (exp_map(place.inverse_inertia * arm.cross(impulse)) * place.rotation).normalized();
@@ -15,8 +15,8 @@ void nudge(Place& place, const Vec3& impulse, const Vec3& arm) {
 
 }  // namespace
 
-/// The equation of collisions with overlap in the place of speed, point by point: bodies turn out of each other, too.
-/// What an earlier point has already parted is left out.
+/// The equation of collisions with overlap in place of speed, point by point: bodies turn out of each other, too.
+/// What an earlier point has already removed is left out.
 void positional_impulse(Overlap& overlap) {
   const Vec3 center_a = overlap.a.center, center_b = overlap.b.center;
   const Quat rotation_a = overlap.a.rotation, rotation_b = overlap.b.rotation;

@@ -7,9 +7,9 @@ namespace tweenfall::strategies {
 
 namespace {
 
-/// Times that rows may change sides together without fewer of them being wrong than ever before.
+/// How often rows may change sides together without fewer of them being wrong than ever before.
 constexpr int most_patience = 6;
-/// Times that a solution is made better by what it leaves.
+/// How often a solution is refined by its residual.
 constexpr int most_refinements = 3;
 
 }  // namespace
@@ -27,7 +27,7 @@ bool BlockPivots::factor() {
   factor_.resize(size * size);
   for (std::size_t i = 0; i < size; ++i)
     for (std::size_t k = 0; k < size; ++k) factor_[i * size + k] = matrix_[rows_[i] * count_ + rows_[k]];
-  // The upper half, row by row: what does not touch stays 0 and is passed by.
+  // The upper half, row by row: entries between bodies that do not touch stay 0 and are skipped.
   for (std::size_t i = 0; i < size; ++i) {
     const double* row = &factor_[i * size];
     if (!(row[i] > 0)) return false;
@@ -42,7 +42,7 @@ bool BlockPivots::factor() {
   return true;
 }
 
-/// Impulses of the rows that press, such that they part as they should, and how all others part.
+/// Finds the impulses of the pressing rows such that they part as they should, and how all others part.
 void BlockPivots::find(std::span<const double> q) {
   const std::size_t size = rows_.size();
   std::fill(values_.begin(), values_.end(), 0.0);

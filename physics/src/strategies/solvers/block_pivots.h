@@ -6,19 +6,19 @@
 
 namespace tweenfall::strategies {
 
-/// The linear complementarity problem of a positive definite matrix: z and w = A z + q with none negative and, one by
-/// one, one of the two 0. All rows that are on the wrong side change it at once, and only where that leads nowhere the
-/// last of them alone: a few factorizations where Lemke's pivots are as many as rows.
+/// The linear complementarity problem of a positive definite matrix: z and w = A z + q, both nonnegative, and for each
+/// row one of the two is 0. All rows on the wrong side change it at once, and only if that leads nowhere, the
+/// last of them alone: this takes a few factorizations, while Lemke's method takes as many pivots as rows.
 /// Source: Judice, Pires, A Block Principal Pivoting Algorithm for Large-Scale Strictly Monotone Linear Complementarity
 /// Problems, Computers & Operations Research 21, 1994.
 class BlockPivots {
  public:
   /// @param matrix  A, row by row; symmetric
-  /// @param slack   by row: what counts as nothing
+  /// @param slack   by row: amounts below this count as 0
   BlockPivots(std::span<const double> matrix, std::span<const double> slack);
 
   /// @param z  a guess, and then the solution: rows above 0 are tried first
-  /// @return whether there is one within what rounding allows
+  /// @return whether it was solved within rounding
   [[nodiscard]] bool solve(std::span<const double> q, std::span<double> z);
 
  private:
@@ -27,9 +27,9 @@ class BlockPivots {
 
   std::size_t count_;
   std::span<const double> matrix_, slack_;
-  std::vector<char> pressing_, factored_;  ///< by row; those for which there is a factor
+  std::vector<char> pressing_, factored_;  ///< by row; those in the factor
   std::vector<std::uint32_t> rows_;        ///< that press
-  std::vector<double> factor_;             ///< of the rows and columns that press, as L D L'
+  std::vector<double> factor_;             ///< of the pressing rows and columns, as L D L'
   std::vector<double> values_, parting_, left_;
 };
 

@@ -2,8 +2,8 @@
 
 namespace tweenfall::strategies {
 
-/// One collision after the other, over and over: what each has given so far may be taken back, down to nothing. It
-/// begins where the step before ended.
+/// One collision after the other, over and over: what each has given so far may be taken back, down to zero. It
+/// starts where the step before ended.
 /// Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005.
 void iterative(Gathering& island) {
   island.begin_where_it_ended();

@@ -10,23 +10,23 @@ namespace tweenfall::strategies {
 
 namespace {
 
-/// Up to so many touches the problem is solved by Lemke's pivots, beyond by projected Gauss-Seidel; but up to so many
-/// by blocks of pivots, where a few passes of that do not end it, as where what is heavy lies on what is light.
+/// Up to `few_touches` the problem is solved by Lemke's pivots, above by projected Gauss-Seidel; but up to
+/// `most_pivoted` by block pivots if a few passes of that are not enough, as when heavy bodies lie on light ones.
 constexpr std::size_t few_touches = 96, most_pivoted = 1024;
-/// How far off it may end, m/s, where rounding allows it, and passes that projected Gauss-Seidel may take.
+/// Accepted residual, m/s, if rounding allows it, and the greatest number of projected Gauss-Seidel passes.
 constexpr double near_enough_to_end = 2e-10;
 constexpr int few_sweeps = 400, most_sweeps = 20000;
-/// Where a body stands on more points than it needs, what each bears is not told by the problem. With this part of its
-/// own ease added to each touch it is, and none is far from what it was: then the addition is taken away again, by
-/// solving anew for the impulses that came out, until they stay the same.
+/// If a body stands on more points than it needs, the problem does not determine what each bears. Adding this part of
+/// its own inverse mass to each touch makes it unique, near all solutions; solving again about the resulting impulses
+/// then removes the effect of the addition, until they stay the same.
 /// Source: Rockafellar, Monotone Operators and the Proximal Point Algorithm, SIAM J. Control 14, 1976.
 constexpr double softness = 1e-6;
 constexpr int most_hardenings = 12;
 constexpr double less_and_less[] = {1e-6, 1e-8, 1e-10};
-/// Between these the other half is solved: normals with friction as it is, friction with normals as they are.
+/// Normals are solved with friction as it is, and friction with normals as they are, in turn.
 constexpr int most_rounds = 12;
 
-/// How far impulses and parting speeds are from none being negative and one of the two being nothing, m/s.
+/// How far impulses and parting speeds are from being nonnegative with one of the two zero, m/s.
 double residual(const Gathering& island) {
   double most = 0;
   for (const Touch& touch : island.touches) {
@@ -37,7 +37,7 @@ double residual(const Gathering& island) {
   return most;
 }
 
-/// How far off an island may end, m/s: what lies on what is light gives it speeds that cancel but for their rounding.
+/// The residual with which an island may end, m/s: bodies on light ones get speeds that cancel up to their rounding.
 double near_enough(const Gathering& island) {
   double momentum = 0, ease = 0;
   for (const Party& party : island.parties)
@@ -51,7 +51,7 @@ struct Pivoting {
   std::vector<double> units, matrix, offsets, impulses;
 };
 
-/// @return whether each touch gives way at all
+/// @return whether each touch can move at all
 bool state_problem(Gathering& island, Pivoting& problem) {
   const std::size_t count = island.touches.size();
   problem = {std::vector<double>(count), std::vector<double>(count * count), std::vector<double>(count),
@@ -83,7 +83,7 @@ bool state_problem(Gathering& island, Pivoting& problem) {
   return true;
 }
 
-/// @return whether that leaves nothing; else all is as it was
+/// @return whether the residual is small enough; otherwise everything is as before
 bool accept(Gathering& island, const Pivoting& problem, double enough) {
   const Gathering before = island;
   for (std::size_t i = 0; i < island.touches.size(); ++i) {
@@ -97,8 +97,8 @@ bool accept(Gathering& island, const Pivoting& problem, double enough) {
   return false;
 }
 
-/// @param solve  for the matrix with a softness on its diagonal: of offsets, whether it solved them, and impulses
-/// @return whether impulses stay the same at last
+/// @param solve  for the matrix with a softness on its diagonal: given offsets, writes impulses and returns success
+/// @return whether the impulses finally stay the same
 template <class Solve>
 bool hardened(Pivoting& problem, double soft, double enough, const Solve& solve) {
   const std::size_t count = problem.units.size();
@@ -120,7 +120,7 @@ void soften(Pivoting& problem, double by) {
   for (std::size_t i = 0; i < count; ++i) problem.matrix[i * count + i] += by;
 }
 
-/// By Lemke's pivots. @return whether that solved it; else all is as it was.
+/// By Lemke's pivots. @return whether that solved it; otherwise everything is as before.
 bool pivoted(Gathering& island, double enough) {
   Pivoting problem;
   if (!state_problem(island, problem)) return false;
@@ -131,8 +131,8 @@ bool pivoted(Gathering& island, double enough) {
   return hardened(problem, softness, enough, by_lemke) && accept(island, problem, enough);
 }
 
-/// The same by whole blocks of pivots, which hold where what is light bears what is ten thousand times as heavy: there
-/// a softness of one part in a million is still much, and less of it is tried.
+/// The same by block pivots, which also work when light bodies bear ten thousand times their mass: there
+/// a softness of one part in a million is still too much, and less of it is tried.
 bool pivoted_by_blocks(Gathering& island, double enough) {
   Pivoting problem;
   if (!state_problem(island, problem)) return false;
@@ -151,11 +151,11 @@ bool pivoted_by_blocks(Gathering& island, double enough) {
   return false;
 }
 
-/// @param left  passes that may still be made: fewer afterwards
+/// @param left  number of passes still allowed; reduced
 /// @return whether that solved it
 bool swept(Gathering& island, double enough, int most, int& left) {
   for (int sweep = 0; sweep < most && left > 0; ++sweep, --left) {
-    // There and back, so that what is carried goes up as fast as down.
+    // There and back, so that weight passes up as fast as down.
     if (sweep % 2 == 0)
       for (Touch& touch : island.touches) island.press(touch);
     else
@@ -175,10 +175,10 @@ void solve_normals(Gathering& island, double enough, int& left) {
 }  // namespace
 
 /// All collisions at once, as a linear complementarity problem: no impulse pulls, no surfaces close, and where they
-/// part there is no impulse. Friction takes turns with it: it is found for the impulses along the normals, and these
-/// again with the friction that there is.
-/// Sources: Baraff, Fast Contact Force Computation for Nonpenetrating Rigid Bodies, SIGGRAPH 1994; Kaufman and others,
-/// Staggered Projections for Frictional Contact in Multibody Systems, SIGGRAPH Asia 2008.
+/// part there is no impulse. It alternates with friction, which is solved for given impulses along the normals, and
+/// these again for the given friction. Sources: Baraff, Fast Contact Force Computation for Nonpenetrating Rigid Bodies,
+/// SIGGRAPH 1994; Kaufman and others, Staggered Projections for Frictional Contact in Multibody Systems, SIGGRAPH Asia
+/// 2008.
 void lcp(Gathering& island) {
   int left = most_sweeps;
   const double enough = near_enough(island);

@@ -8,12 +8,12 @@ namespace tweenfall::strategies {
 
 namespace {
 
-/// Parts of a pivot that are rounding.
+/// Rounding of a pivot, relative.
 constexpr double no_pivot = 1e-10;
-/// Times that a solution is made better by what it leaves.
+/// How often a solution is refined by its residual.
 constexpr int refinements = 3;
 
-/// The tableau of w - A z - z0 = q: what is basic, told by what is not. Columns are w, z, z0 and at last q.
+/// The tableau of w - A z - z0 = q: basic variables in terms of the others. Columns are w, z, z0 and at last q.
 class Tableau {
  public:
   Tableau(std::span<const double> matrix, std::span<const double> q)
@@ -41,7 +41,7 @@ class Tableau {
     return false;
   }
 
-  /// What is basic, anew from the problem as it was given: pivots have gathered rounding.
+  /// Computes the basic variables from the original problem, as pivots have gathered rounding.
   void read(std::span<double> z) const {
     std::vector<double> values(count_), left(q_.begin(), q_.end());
     for (int k = 0; k < refinements; ++k) {
@@ -67,7 +67,7 @@ class Tableau {
   double& at(std::size_t row, std::size_t column) { return entries_[row * width_ + column]; }
   [[nodiscard]] double at(std::size_t row, std::size_t column) const { return entries_[row * width_ + column]; }
 
-  /// The first that what enters would make negative; `count_` when it may grow for ever.
+  /// The first row that the entering variable would make negative; `count_` if it may grow forever.
   [[nodiscard]] std::size_t row_to_leave(std::size_t entering) const {
     std::size_t best = count_;
     for (std::size_t row = 0; row < count_; ++row) {
@@ -83,14 +83,14 @@ class Tableau {
       return std::abs(ratio - other_ratio) <= 1e-13 * (1 + std::abs(ratio)) ? 0 : ratio < other_ratio ? -1 : 1;
     };
     if (const int order = less(width_ - 1); order != 0) return order < 0;
-    // The one that ends it goes first of all.
+    // The one that ends the method goes first.
     if (basic_[row] == cover() || basic_[other] == cover()) return basic_[row] == cover();
     for (std::size_t column = 0; column < count_; ++column)
       if (const int order = less(column); order != 0) return order < 0;
     return false;
   }
 
-  /// @return what leaves
+  /// @return the leaving variable
   std::size_t pivot(std::size_t row, std::size_t entering) {
     const double share = 1 / at(row, entering);
     for (std::size_t column = 0; column < width_; ++column) at(row, column) *= share;
@@ -105,7 +105,7 @@ class Tableau {
   std::size_t count_, width_;
   std::span<const double> matrix_, q_;
   std::vector<double> entries_;
-  std::vector<std::size_t> basic_;  ///< by row: which column
+  std::vector<std::size_t> basic_;  ///< by row: its column
 };
 
 }  // namespace

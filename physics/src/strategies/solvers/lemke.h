@@ -5,12 +5,12 @@
 
 namespace tweenfall::strategies {
 
-/// The linear complementarity problem: z and w = A z + q with none negative and, one by one, one of the two 0; by
-/// Lemke's pivots. Of a matrix that is positive semidefinite it finds a solution where there is one; the same ones are
-/// met again by none, for of equal ratios the lexicographically least leaves.
+/// The linear complementarity problem: z and w = A z + q, both nonnegative, and for each row one of the two is 0; by
+/// Lemke's pivots. For a positive semidefinite matrix it finds a solution if there is one. It never cycles, since
+/// of equal ratios the lexicographically least leaves.
 /// @param matrix  A, row by row
-/// @param z       written when there is a solution
-/// @return whether there is
+/// @param z       written if there is a solution
+/// @return whether there is one
 /// Source: Cottle, Pang and Stone, The Linear Complementarity Problem, 1992, 4.4 and 4.9.
 [[nodiscard]] bool solve_by_lemke(std::span<const double> matrix, std::span<const double> q, std::span<double> z);
 

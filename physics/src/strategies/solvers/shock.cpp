@@ -9,7 +9,7 @@ namespace {
 
 constexpr int not_reached = -1;
 
-/// How many touches each party is above what cannot move; what hangs free is in the first layer.
+/// How many touches each party is above an immovable one; what hangs free is in the first layer.
 std::vector<int> layers_of(const Gathering& island) {
   std::vector<int> layers(island.parties.size(), not_reached);
   for (std::size_t i = 0; i < layers.size(); ++i)
@@ -24,8 +24,8 @@ std::vector<int> layers_of(const Gathering& island) {
 
 }  // namespace
 
-/// Passes over all collisions, and then a wave from the ground up: layer by layer, with all below as firm as the
-/// ground. What stands so stands after one wave, however tall; the ground bears what the lowest layer alone weighs, and
+/// Passes over all collisions, and then a wave from the ground up: layer by layer, with everything below as firm as the
+/// ground. So a stack stands after one wave, however tall; the ground bears only the weight of the lowest layer, and
 /// momentum is not kept.
 /// Source: Guendelman, Bridson and Fedkiw, Nonconvex Rigid Bodies with Stacking, SIGGRAPH 2003, section 8.
 void shock(Gathering& island) {
