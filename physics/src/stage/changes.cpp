@@ -72,7 +72,7 @@ std::size_t body_index(const StageState& state, NodeId node) {
 void make_change(StageState& state, const Command& command, double step, std::vector<Happening>& happenings) {
   if (std::holds_alternative<change::None>(command.change)) return;
   std::visit(Maker{state, command.time, step, happenings}, command.change);
-  // At once, so that whoever makes it finds what whoever comes back to it does.
+  // At once, so that whoever makes the change sees what `seek` will find there.
   follow_played_tracks(state, step, happenings);
   follow_ramps(state);
 }

@@ -53,18 +53,18 @@ struct Ignore {
   std::size_t a = no_node, b = no_node;
   bool ignored = true;  ///< false: they meet again
 };
-/// A play is asked for something.
+/// Asks a play for something.
 struct Ask {
   std::string play;
   PlayAction action;
 };
-/// A graph is told something.
+/// Sends something to a graph.
 struct Tell {
   std::string graph;
   std::string name;               ///< of a parameter, or of an event
-  std::optional<double> value{};  ///< none: the event is sent
+  std::optional<double> value{};  ///< absent: the event is sent
 };
-/// A vehicle is driven.
+/// Drives a vehicle.
 struct Control {
   std::string vehicle;
   VehicleControl control = {};
@@ -75,18 +75,18 @@ using Change = std::variant<change::None, change::Release, change::Recover, chan
                             change::Remove, change::Push, change::Join, change::Part, change::Ignore, change::Ask,
                             change::Tell, change::Control>;
 
-/// A change at an exact time. When it throws, it has changed nothing.
+/// A change at an exact time. If it throws, it has changed nothing.
 struct Command {
   double time = 0;
   Change change;
 };
 
 /// @param step  of the stage, s
-/// @throws std::invalid_argument for what cannot be
+/// @throws std::invalid_argument for an impossible change
 void make_change(StageState& state, const Command& command, double step, std::vector<Happening>& happenings);
 
-/// Whether the change is one of who is on the stage and what waits for whom, which follows from changes alone and not
-/// from how anything moves.
+/// Whether the change affects who is on the stage and which rules wait for whom, which follows from changes alone and
+/// not from how anything moves.
 [[nodiscard]] bool is_of_cast(const Change& change);
 
 }  // namespace tweenfall::staging

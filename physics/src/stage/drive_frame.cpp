@@ -40,7 +40,7 @@ Motion carried_along(const StageState& state, const StagedBody& body, const Moti
   Motion wanted = path;
   wanted.pose.position = there.pose.position + carried;
   wanted.pose.rotation = (turn * path.pose.rotation).normalized();
-  // What the path does against the path of its carrier, it does against the carrier.
+  // The path's motion relative to its carrier's path becomes motion relative to the carrier.
   const Vec3 slip = path.twist.linear - authored.twist.linear - authored.twist.angular.cross(arm);
   wanted.twist.linear = there.twist.linear + there.twist.angular.cross(carried) + turn * slip;
   wanted.twist.angular = there.twist.angular + turn * (path.twist.angular - authored.twist.angular);

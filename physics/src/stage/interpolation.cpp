@@ -10,7 +10,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// Whether what is shown is the later of two states: beside it, a body is where its own velocity takes it.
+/// Whether the later of two states is shown: near it, a body is where its own velocity takes it.
 bool at_end(const StageState& from, const StageState& to, double time) {
   return &from == &to || time >= to.time;
 }
@@ -20,7 +20,7 @@ bool touched(const StageState& state, BodyId body) {
 }
 
 /// A free body between two states: pose of the origin, twist at the center of mass. Its center follows the Hermite
-/// cubic of its own places and velocities, which is the exact parabola of free flight; where a contact has
+/// cubic of its own positions and velocities, which is the exact parabola of free flight; but if a contact has
 /// changed the velocity in between, no cubic of the two ends is right, and the straight line does not overshoot.
 Motion between(const StageState& from, const StageState& to, const StagedBody& body, double time) {
   const double span = to.time - from.time, u = (time - from.time) / span;
@@ -78,7 +78,7 @@ const StagedBody& body_in_force(const StageState& from, const StageState& to, st
   return at_end(from, to, time) || body >= from.bodies.size() ? to.bodies[body] : from.bodies[body];
 }
 
-/// What a node without a body follows: below a body that has its own clock, it keeps that clock.
+/// The nearest body above a node without one, whose clock the node follows.
 const StagedBody* body_above(const StageState& state, NodeId node) {
   for (NodeId i = node; i != no_node; i = (*state.nodes)[i].parent)
     if (const StagedBody* body = state.body(i)) return body;

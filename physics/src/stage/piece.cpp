@@ -16,7 +16,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// Rules and jumps split a step at most so often; what is left then is handled at its end, and told.
+/// Rules and jumps split a step at most this often; what is left then is handled at its end, and reported.
 constexpr int most_splits = 1024;
 
 /// The caller's changes that are due after `from`, in order of time.
@@ -25,7 +25,7 @@ std::span<const Command> commands_after(std::span<const Command> commands, doubl
   return commands.subspan(static_cast<std::size_t>(first - commands.begin()));
 }
 
-/// All that is due up to a sliver after now: events told, rules fired, the caller's changes made.
+/// Handles everything due up to a sliver after now: reports events, fires rules, makes the caller's changes.
 void handle_instant(StageState& state, double step, std::span<const Command> commands,
                     std::vector<Happening>& happenings, std::optional<StageState>& arrived) {
   const double from = state.handled;
@@ -45,7 +45,7 @@ void handle_instant(StageState& state, double step, std::span<const Command> com
 }
 
 /// Moves the world to `end`, or to a caller's change before that. Blows are sought in the whole piece, so that they are
-/// where they were when nobody knew of the change yet.
+/// where they were before the change was known.
 void move_to_change(StageState& state, double end, double change, double step, std::vector<Happening>& happenings) {
   if (!(change < end)) {
     move_world(state, end, step, happenings);
@@ -91,7 +91,7 @@ const Motion& bearable(const StageState& state, const StagedBody& body, const Mo
                               "; a body bears 1e30" + unit;
     throw NodeNotFinite(body.node, (*state.nodes)[body.node].name, NotFinite(body.id, state.time, cause));
   };
-  // What is too fast first: it is why the place is none.
+  // Excessive speeds first: they are the cause of an excessive position.
   require(motion.twist.angular, "turns it at", " rad/s");
   require(motion.twist.linear, "moves it at", " m/s");
   require(motion.pose.position, "puts it at a distance of", " m");

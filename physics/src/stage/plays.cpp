@@ -36,7 +36,7 @@ void report_events(const StageState& state, double from, double to, std::vector<
 
 namespace {
 
-/// What graphs tell at an instant that has been handled, for what they lie on or what came in has changed there.
+/// What graphs report at an instant that has been handled, because what they lie on or their input has changed there.
 std::vector<FiredEvent> news_of_graphs(const Animation& before, const Animation& after, double instant) {
   const double earlier = std::nextafter(instant, -infinity);
   std::vector<GraphEvent> told = before.graph_events(earlier, instant);
@@ -53,8 +53,8 @@ std::vector<FiredEvent> news_of_graphs(const Animation& before, const Animation&
   return news;
 }
 
-/// From an instant on, which has been handled, the animation is another.
-/// @param news  what it tells at that very time: rules wait for it, too
+/// Replaces the animation from an instant on that has been handled.
+/// @param news  what it reports at that very time: rules wait for it, too
 void change_animation(StageState& state, const Animation& animation, double instant, std::vector<FiredEvent> news,
                       double step, std::vector<Happening>& happenings) {
   const auto next = std::make_shared<const Animation>(animation);

@@ -1,6 +1,6 @@
 #pragma once
 
-// How the size of what is handed back settles: place and rotation do so by their `SettleOffset`.
+// How the size of a body settles after it is handed back: position and rotation settle by their `SettleOffset`.
 
 #include <tweenfall/curves/pose.h>
 #include <tweenfall/curves/settle.h>

@@ -18,7 +18,7 @@ namespace tweenfall {
 
 namespace staging {
 
-/// More steps than this in one call are taken for a mistake: it would seem never to end.
+/// A call that would take more steps than this counts as a mistake: it would seem never to end.
 constexpr double most_steps = 2e7;
 
 void require_reachable(double from, double to, double step) {

@@ -22,23 +22,23 @@ namespace tweenfall::staging {
 inline constexpr std::size_t no_body = static_cast<std::size_t>(-1);
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Instants nearer to each other than this are handled together, and those so near to the end of a step at it, s. What
-/// leaves its path there leaves from where the path was at its own instant, moved on at the path's own velocity.
+/// Instants nearer to each other than this are handled together, and those so near to the end of a step at that end, s.
+/// A body that leaves its path there leaves from where the path was at its own instant, moved on at its velocity.
 inline constexpr double sliver = 1e-9;
 
-/// Where a motion has the point that is `center` in its own coordinates.
+/// Where a motion puts the point that is `center` in its own coordinates.
 [[nodiscard]] inline Vec3 center_of(const Motion& motion, const Vec3& center) {
   return motion.pose.position + motion.pose.rotation * center;
 }
 
-/// A motion without what deforms.
+/// A motion without its deformation.
 [[nodiscard]] inline Motion rigid(Motion motion) {
   motion.pose.scale = Vec3(1, 1, 1);
   motion.scale_rate.setZero();
   return motion;
 }
 
-/// The motion of a node some time later, when nothing acts on it; its twist stays that of the origin.
+/// The motion of a node some time later, if nothing acts on it; its twist stays that of the origin.
 [[nodiscard]] Motion moved_on(const Motion& motion, const Vec3& center, double seconds);
 
 /// How the nodes without bodies below a body settle after it changed its clock, each in its parent's axes.
@@ -48,17 +48,17 @@ struct SettlingNode {
   SizeOffset size;
 };
 
-/// The way of a body's drive from one to another.
+/// The ramp of a body's drive from one to another.
 struct Ramp {
   Drive from, to;
   double start = 0, seconds = 0;  ///< stage time and length, s
-  Settle settle = {};             ///< of the difference to the path where it ends in that
+  Settle settle = {};             ///< of the difference to the path, if the ramp ends on it
 };
 
-/// A change that a rule has come after another.
+/// A change of a rule that comes after another one.
 struct ComingChange {
   std::size_t rule = 0;
-  std::size_t place = 0;  ///< in the rule's `then`
+  std::size_t place = 0;  ///< index in the rule's `then`
   double due = 0;         ///< stage time, s
 };
 
@@ -67,28 +67,28 @@ struct StagedBody {
   BodyId id = {};
   Path path;
   double released_at = 0;  ///< stage time at which it last left its path
-  WorldMotion shown = {};  ///< the path at that time; its scale and shear stay on the free body
+  WorldMotion shown = {};  ///< the path at that time; the free body keeps its scale and shear
   bool present = true;
   std::shared_ptr<const std::vector<SettlingNode>> below = {};  ///< in order of nodes; null for none
-  Drive drive = {};                             ///< that it came with: what a track of drives is mixed over
-  Vec3 surface{0, 0, 0};                        ///< the same of its surface, m/s
+  Drive drive = {};                             ///< the initial drive: tracks of drives are mixed over it
+  Vec3 surface{0, 0, 0};                        ///< the same for its surface, m/s
   double saturated_for = 0;                     ///< how long its drive has been at its limit, s
   bool by_track = true;                         ///< no rule and no caller has handed it over: a track may set its drive
   std::shared_ptr<const SizeOffset> size = {};  ///< how its own size settles on its path; null for none
-  std::optional<Ramp> ramp = {};                ///< on which its drive is
-  std::optional<ComingChange> coming = {};      ///< unless it changes hands before
+  std::optional<Ramp> ramp = {};                ///< the ramp of its drive
+  std::optional<ComingChange> coming = {};      ///< comes unless the body changes hands before
 
-  /// Its path's motion at `time` with the size that still settles.
+  /// Its path's motion at `time`, with the size that is still settling.
   [[nodiscard]] WorldMotion sized(double time, const WorldMotion& on_path) const noexcept;
 };
 
-/// What became of a rule so far, for `Stage::unfired_rules`.
+/// What has happened to a rule so far, for `Stage::unfired_rules`.
 struct Attempt {
   bool fired = false;
-  bool waited = false;   ///< its body was at some time not yet where the rule takes it
-  bool touched = false;  ///< for contacts: something that the rule names
-  double impulse = 0;    ///< greatest of those, N s
-  double speed = 0;      ///< greatest of those, m/s
+  bool waited = false;   ///< at some time its body was not yet where the rule takes it
+  bool touched = false;  ///< for contacts: by something that the rule names
+  double impulse = 0;    ///< greatest of these contacts, N s
+  double speed = 0;      ///< greatest of these contacts, m/s
   double still = 0;      ///< longest, s
   double saturated = 0;  ///< longest, s
   double error = 0;      ///< greatest, m
@@ -102,28 +102,28 @@ struct ArmedRule {
   bool done = false;
   bool was_true = false;             ///< for a rule that fires again: it must have been false in between
   bool gone = false;                 ///< its body has left
-  std::optional<Cause> vetoed = {};  ///< it fired and its body could not leave its path: tried again
-  Attempt attempt = {};              ///< what came of it so far
+  std::optional<Cause> vetoed = {};  ///< it fired but its body could not leave its path: tried again
+  Attempt attempt = {};              ///< what has happened to it so far
 };
 
-/// A contact that began and is not over: what it has taken so far is not yet the whole blow.
+/// A contact that began and is not over: its impulse so far is not yet the whole blow.
 struct Blow {
   BodyId a, b;
-  double met = 0;      ///< when the bodies did, s
-  double began = 0;    ///< end of the piece in which it did, s
+  double met = 0;      ///< when the bodies met, s
+  double began = 0;    ///< end of the piece in which they met, s
   double impulse = 0;  ///< N s
   double speed = 0;    ///< m/s
 };
 
-/// Two bodies that lie deep in each other.
+/// Two bodies that overlap deeply.
 struct Strain {
   BodyId a, b;
   double since = 0;   ///< s
-  bool told = false;  ///< it has lasted: no blow
+  bool told = false;  ///< it has lasted too long for a blow, and was reported
 };
-/// A joint that is open wide.
+/// A joint that is far open.
 struct Tear {
-  std::size_t joint = 0;  ///< of the stage's list
+  std::size_t joint = 0;  ///< index in the stage's list
   double since = 0;       ///< s
   bool told = false;
 };
@@ -134,7 +134,7 @@ struct Jumps {
   JumpSearch search;           ///< of the tracks that carry them
 };
 
-/// A track that animates something of a body's physics.
+/// A track that animates a property of a body's physics.
 template <class T>
 struct PlayedTrack {
   NodeId node = no_node;
@@ -147,10 +147,10 @@ struct PlayedTracks {
   std::vector<PlayedTrack<Vec3>> surfaces;  ///< m/s
 };
 
-/// When strengths of forces and scripts of vehicles leap from one value to another.
+/// When strengths of forces and scripts of vehicles jump from one value to another.
 struct Leaps {
   std::vector<double> keyed;         ///< in order, s
-  std::vector<Expression> formulas;  ///< that are asked step by step
+  std::vector<Expression> formulas;  ///< those that are evaluated step by step
 };
 
 /// One joint that the description or the caller put into the world.
@@ -162,24 +162,24 @@ struct StagedJoint {
 };
 struct StagedSofts;
 struct StagedJoints {
-  std::vector<StagedJoint> list;      ///< in the order in which they were described, or added
-  std::vector<std::size_t> by_name;   ///< those of the list, in order of their names
-  std::vector<std::size_t> ending;    ///< those of the list with an `until`
-  std::vector<std::size_t> by_index;  ///< those of the list, by index of the world's joint
+  std::vector<StagedJoint> list;      ///< in the order in which they were described or added
+  std::vector<std::size_t> by_name;   ///< indices into the list, in order of names
+  std::vector<std::size_t> ending;    ///< indices of those with an `until`
+  std::vector<std::size_t> by_index;  ///< index into the list, by index of the world's joint
 };
 
 /// Wheels under a body.
 struct StagedVehicle {
   std::shared_ptr<const VehicleDescription> described;
   Vehicle vehicle;
-  VehicleControl control = {};  ///< what is held of its script
+  VehicleControl control = {};  ///< overrides of its script
 };
 struct StagedParticles {
   std::shared_ptr<const ParticlesDescription> described;
   Particles particles;
 };
 
-/// What happened during a piece, to be told when the stage's time gets there.
+/// Something that happened during a piece, reported when the stage's time gets there.
 struct Happening {
   double time = 0;
   std::variant<StageEvent, HandOff> what;
@@ -187,8 +187,8 @@ struct Happening {
 
 struct StageState {
   double time = 0;
-  std::int64_t steps = -1;  ///< whole steps taken; -1 before the instant 0 has been handled
-  double handled = -1;      ///< all that was due up to here has been done; a sliver after `time`
+  std::int64_t steps = -1;  ///< whole steps taken; -1 before instant 0 has been handled
+  double handled = -1;      ///< everything due up to here has been done; a sliver after `time`
   int splits = 0;           ///< of the current step, by rules and jumps
   World world;
   Vec3 gravity{0, 0, 0};
@@ -196,25 +196,25 @@ struct StageState {
   std::shared_ptr<const Animation> animation;
   std::shared_ptr<const Jumps> jumps;
   std::shared_ptr<const PlayedTracks> tracks;
-  std::shared_ptr<const StagedJoints> joints;  ///< gone ones included: the world knows which hold
+  std::shared_ptr<const StagedJoints> joints;  ///< including those that are gone: the world knows which still hold
   std::shared_ptr<const StagedSofts> softs;
-  std::shared_ptr<const Leaps> leaps;        ///< of what is scripted
-  std::vector<std::size_t> forces;           ///< numbers of the description's in the world
+  std::shared_ptr<const Leaps> leaps;        ///< of scripts
+  std::vector<std::size_t> forces;           ///< the world's numbers of the description's forces
   std::vector<StagedVehicle> vehicles;       ///< as they were described
   std::vector<StagedParticles> particles;    ///< likewise
   std::vector<char> present;                 ///< by node
-  std::vector<std::optional<Color>> colors;  ///< by node, where none is animated
+  std::vector<std::optional<Color>> colors;  ///< by node, if no color is animated
   std::vector<StagedBody> bodies;
   std::vector<std::size_t> unused;                ///< places in `bodies` of those that have left
   std::vector<std::size_t> body_of;               ///< by node; `no_body` for none
   std::vector<NodeId> node_of;                    ///< by index of the world's body
   std::vector<NodeId> first_child, next_sibling;  ///< by node; `no_node` for none
-  std::vector<std::uint32_t> presses;  ///< by index of the world's body: contacts with an impulse, last piece
+  std::vector<std::uint32_t> presses;  ///< by index of the world's body: contacts with an impulse in the last piece
   std::vector<std::shared_ptr<const Rule>> rules;
   std::vector<ArmedRule> armed;                    ///< by body, then by rule
   std::size_t gone_rules = 0;                      ///< of `armed`
   std::vector<Blow> blows;                         ///< by pair
-  std::vector<std::pair<BodyId, BodyId>> passing;  ///< pass through each other until they are apart
+  std::vector<std::pair<BodyId, BodyId>> passing;  ///< pairs that pass through each other until they are apart
   std::vector<Strain> strained;                    ///< by pair
   std::vector<Tear> torn;                          ///< by joint
   bool jumped = true;  ///< some path may have jumped at `time`: keyed bodies are put on it before going on
@@ -245,26 +245,26 @@ struct StageState {
 // changes.cpp: what the caller does
 /// @throws std::invalid_argument for a node that is not on the stage
 void require_node(const StageState& state, NodeId node);
-/// @throws std::invalid_argument for a node that has no body, too
+/// @throws std::invalid_argument also for a node that has no body
 [[nodiscard]] std::size_t body_index(const StageState& state, NodeId node);
 
 // plays.cpp: what is played
-/// @throws std::invalid_argument for what cannot be; nothing has changed then
+/// @throws std::invalid_argument for an impossible change; nothing has changed then
 void change_play(StageState& state, const PlayChange& change, double step, std::vector<Happening>& happenings);
-/// Something comes in to a graph, at the input's time.
-/// @throws std::invalid_argument for what cannot be; nothing has changed then
+/// Sends something to a graph, at the input's time.
+/// @throws std::invalid_argument for an impossible input; nothing has changed then
 void tell_graph(StageState& state, const std::string& graph, const GraphInput& input, double step,
                 std::vector<Happening>& happenings);
-/// Tells what plays fire in (from, to], from the start on where `from` is below 0.
+/// Reports what plays fire in (from, to], from the start on if `from` is below 0.
 void report_events(const StageState& state, double from, double to, std::vector<Happening>& happenings);
 
-// rules/unfired.cpp: what was waited for in vain
+// rules/unfired.cpp: rules that waited in vain
 [[nodiscard]] std::vector<UnfiredRule> unfired_rules(const StageState& state);
 
 // roster.cpp: who is on the stage
-/// @throws std::invalid_argument with all that does not fit together
+/// @throws std::invalid_argument with everything that does not fit together
 [[nodiscard]] StageState initial_state(const StageDescription& description);
-/// The same with faults told instead; of use as far as there are none.
+/// The same, but collects faults instead of throwing; incomplete if there are any.
 [[nodiscard]] StageState described_state(const StageDescription& description, std::vector<StageFault>& faults);
 NodeId add_node(StageState& state, const NodeDescription& node);
 void remove_node(StageState& state, NodeId node);
@@ -274,15 +274,15 @@ void require_possible(const StageState& state, const StagedBody& body, const Own
 
 // rules/ownership.cpp: who moves a body
 /// @param instant  when it happens; the state's time is at most a sliver away, or later when splits were capped
-/// @return whether the body is where it shall be: not when its overlap vetoes it, which is told
+/// @return whether the body is where it should be: not if its overlap vetoes the change, which is reported
 [[nodiscard]] bool change_owner(StageState& state, std::size_t body, const OwnerChange& change, Cause cause,
                                 double instant, double step, std::vector<Happening>& happenings);
 
 // rules/triggers.cpp: when that changes
-/// The first moment in (state.handled, to] at which something may trigger or jump; infinity when there is none.
+/// The first moment in (state.handled, to] at which something may trigger or jump; infinity if there is none.
 [[nodiscard]] double next_instant(const StageState& state, double to);
-/// Fires the rules that are due in (from, state.handled], in order of time; contact triggers are pulled by latching
-/// them before.
+/// Fires the rules that are due in (from, state.handled], in order of time; contact triggers must have been latched
+/// before.
 void fire_rules(StageState& state, double from, double step, std::vector<Happening>& happenings);
 /// Whether the rule waits for its trigger: its body is not yet where the rule would take it, nor on its way there.
 [[nodiscard]] bool waits(const StageState& state, const ArmedRule& armed);
@@ -291,45 +291,45 @@ void fire_rule(StageState& state, ArmedRule& armed, Cause cause, double instant,
                std::vector<Happening>& happenings);
 
 /// First time in (from, to] at which a play that runs by `clock` fires an event of this name; infinity for none.
-/// @param node  when given, only plays that move the node count
+/// @param node  if given, only plays that move the node count
 [[nodiscard]] double event_time(const Animation& animation, const ClockOverride& clock, const std::string& name,
                                 NodeId node, double from, double to);
 
 // staged_joints.cpp: what holds bodies to each other
-/// Adds the description's joints to the world. Those that make none are faults.
+/// Adds the description's joints to the world. Impossible ones are faults.
 void add_joints(StageState& state, const StageDescription& description, std::vector<StageFault>& faults);
-void enter_joint(StagedJoints& joints, StagedJoint joint);  ///< in place of one of its name that is gone
-/// Those of the state, shared with no other: they may be changed.
+void enter_joint(StagedJoints& joints, StagedJoint joint);  ///< replaces one of its name that is gone
+/// The joints of the state, shared with no other state: they may be changed.
 [[nodiscard]] std::shared_ptr<StagedJoints> own_joints(StageState& state);
-/// @throws std::invalid_argument, also for a name that a joint has which holds
+/// @throws std::invalid_argument, also for the name of a joint that still holds
 void add_joint(StageState& state, const JointDescription& joint);
-/// @throws std::invalid_argument with the nearest name; nothing for one that is gone
+/// @throws std::invalid_argument with the nearest name; does nothing for one that is gone
 void remove_joint(StageState& state, const std::string& name);
-/// The first moment in (from, to] at which a joint ends; infinity when there is none.
+/// The first moment in (from, to] at which a joint ends; infinity if there is none.
 [[nodiscard]] double next_joint_end(const StageState& state, double from, double to);
-/// Takes away joints whose end is due in (from, state.handled].
+/// Removes joints whose end is due in (from, state.handled].
 void end_joints(StageState& state, double from, std::vector<Happening>& happenings);
-/// Tells which joints broke in the world's last step.
+/// Reports which joints broke in the world's last step.
 void report_broken_joints(const StageState& state, std::vector<Happening>& happenings);
-/// How the description's joints stand at the start where that is not as they hold.
+/// Finds joints of the description that do not start as they hold.
 void find_joint_starts(const StageState& state, const StageDescription& description, StageInspection& out);
 // inspection/extremes.cpp
-/// What is beyond numbers or steps.
+/// Finds what numbers or steps cannot follow.
 void find_extremes(const StageState& state, const StageDescription& description, bool try_steps, StageInspection& out);
 /// @throws std::invalid_argument with the nearest name
 [[nodiscard]] std::optional<JointReading> joint_reading(const StageState& state, std::string_view name);
 
 // piece.cpp: from one instant to the next
-/// Takes `state` to the next instant, or to the end of its step when there is none before. What happens is added in
+/// Takes `state` to the next instant, or to the end of its step if there is none before. What happens is added in
 /// order of time.
-/// @param arrived  the state at that instant before the changes of the caller, when there are some: what is read before
+/// @param arrived  the state at that instant before the changes of the caller, if there are any: what is read before
 /// a change must not know of it
-/// @throws what the world throws; `state` is of no use then
+/// @throws what the world throws; `state` is then useless
 void take_piece(StageState& state, double step, std::span<const Command> commands, std::vector<Happening>& happenings,
                 std::optional<StageState>& arrived);
-/// Tells driven and keyed bodies where their paths want them at `end`. @throws NodeNotFinite
+/// Gives driven and keyed bodies their targets at `end`. @throws NodeNotFinite
 void set_targets(StageState& state, double end);
-/// `motion`, where the world can bear it. @throws NodeNotFinite telling what of it is too much, for what led the body
+/// `motion`, if the world can bear it. @throws NodeNotFinite saying what is too much about it, with what led the body
 /// there, such as "its path"
 [[nodiscard]] const Motion& bearable(const StageState& state, const StagedBody& body, const Motion& motion,
                                      const char* leader);
@@ -342,14 +342,14 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
 [[nodiscard]] std::shared_ptr<const Jumps> find_jumps(const StageState& state);
 /// The same jumps after the plays have changed.
 [[nodiscard]] std::shared_ptr<const Jumps> jumps_of_plays(const StageState& state);
-/// Whether a body that has come to this node is moved by tracks that moved none before.
+/// Whether tracks that moved no body before move a body that is added at this node.
 [[nodiscard]] bool carries_more(const StageState& state, NodeId node);
 /// First stage time in (from, to] at which some path may make its body jump; infinity for none.
 [[nodiscard]] double first_jump(const StageState& state, double from, double to);
 
-// interpolation.cpp: what a stage shows, between two states that follow each other or, with one twice, beside one
+// interpolation.cpp: what a stage shows, between two consecutive states, or near one if it is given twice
 [[nodiscard]] WorldMotion body_world(const StageState& from, const StageState& to, std::size_t body, double time);
-/// Where the world has, or would have, its shape.
+/// The pose at which the world has its shape, or would have it.
 [[nodiscard]] Pose body_pose(const StageState& from, const StageState& to, std::size_t body, double time);
 [[nodiscard]] Twist body_twist(const StageState& from, const StageState& to, std::size_t body, double time);
 void stage_world(const StageState& from, const StageState& to, double time, std::span<WorldMotion> out);

@@ -11,7 +11,7 @@ namespace tweenfall {
 
 namespace queries {
 
-/// What questions may see of a stage.
+/// Access of queries to a stage.
 class InsideStage {
  public:
   explicit InsideStage(const Stage& stage)
@@ -81,7 +81,7 @@ StageDetail detail_of(const Stage& stage) {
   const staging::StageState& state = queries::InsideStage::shown(stage);
   StageDetail detail;
   const auto node_of = [&](const BodyId& body) { return state.node_of[body.index]; };
-  // Of each island, by its first body, the first node.
+  // For each island, by its first body, the first node.
   std::vector<NodeId> first(state.node_of.size(), no_node);
   const std::vector<BodyDetail> bodies = body_details(state.world);
   for (const BodyDetail& body : bodies) {

@@ -8,13 +8,13 @@ namespace tweenfall::staging {
 
 class WholePose {
  public:
-  /// Nothing is sampled before the first question.
+  /// Nothing is sampled before the first query.
   WholePose(const StageState& state, double time, Side side) : state_(state), time_(time), side_(side) {}
 
   [[nodiscard]] const Motion& local(NodeId node);          ///< by the stage's own clock
   [[nodiscard]] const WorldMotion& authored(NodeId node);  ///< the same, in the world
 
-  /// Where a body's path has it; a body with a clock of its own is asked by itself.
+  /// Where a body's path has it; a body with a clock of its own is sampled separately.
   [[nodiscard]] Motion at(const StagedBody& body);
   [[nodiscard]] WorldMotion world(const StagedBody& body);
 

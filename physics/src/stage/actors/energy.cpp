@@ -13,7 +13,7 @@ StageEnergy energy_of(const StageState& state) {
     try {
       one = state.world.potential_energy(number);
     } catch (const std::invalid_argument&) {
-      continue;  // it went with its body
+      continue;  // it was removed with its body
     }
     energy.weight -= one.value_or(0);
   }

@@ -1,12 +1,12 @@
 #pragma once
 
-// What a stage's bodies have of energy.
+// The energy of a stage's bodies.
 
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
 
-/// Between two states that follow each other.
+/// Between two consecutive states.
 [[nodiscard]] StageEnergy stage_energy(const StageState& from, const StageState& to, double time);
 
 }  // namespace tweenfall::staging

@@ -9,7 +9,7 @@
 
 namespace tweenfall::staging {
 
-/// @param what  they are, for people: "vehicle"
+/// @param what  name of the kind, for messages: "vehicle"
 /// @throws std::invalid_argument with the nearest name
 template <class Actor>
 [[nodiscard]] std::size_t index_called(const std::vector<Actor>& actors, std::string_view name, const char* what) {

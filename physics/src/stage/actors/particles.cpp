@@ -97,7 +97,7 @@ void ParticleStep::take(StageState& state) const {
         particles.halt(i);
         continue;
       }
-      // Where a path jumps at the end, what leaves before it leaves from this side.
+      // If a path jumps at the end, particles that leave before the jump leave from this side.
       const Place& start = starts_[kind][i];
       const Place end = place_of(state, emitter, state.time - sliver);
       const double now = particles.time();
@@ -130,7 +130,7 @@ StageParticles stage_particles(const StageState& from, const StageState& to, std
     const Particles& before = from.particles[index].particles;
     const double span = to.time - from.time, since = time - from.time;
     const double now = before.time() + since;
-    // Both lists are in order of age; what is in the first alone dies within the step.
+    // Both lists are in order of age; particles only in the first die within the step.
     for (std::size_t i = 0; i < before.size(); ++i) {
       if (next < after.size() && after.numbers()[next] == before.numbers()[i]) {
         const Sample<Vec3> way = hermite::sample<Vec3>(before.position(i), before.velocity(i), after.position(next),

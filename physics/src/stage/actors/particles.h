@@ -1,6 +1,6 @@
 #pragma once
 
-// Particles of a stage: let go along the ways of nodes, and stepped with the world.
+// Particles of a stage: released along the paths of nodes, and stepped with the world.
 
 #include <memory>
 #include <string_view>
@@ -10,14 +10,14 @@
 
 namespace tweenfall::staging {
 
-/// Adds the description's particles. What makes none is a fault.
+/// Adds the description's particles. Impossible ones are faults.
 void add_particles(StageState& state, const StageDescription& description, std::vector<StageFault>& faults);
 
-/// A step of the world, around which particles are stepped: made before it.
+/// A step of the world, with which particles are stepped: constructed before it.
 class ParticleStep {
  public:
   explicit ParticleStep(const StageState& state);
-  /// When the world is at the step's end and the stage's time there.
+  /// Call it when the world is at the step's end, and so is the stage's time.
   void take(StageState& state) const;
 
  private:
@@ -31,7 +31,7 @@ class ParticleStep {
   std::vector<std::vector<Place>> starts_;  ///< of the emitters of each kind of particles
 };
 
-/// Between two states that follow each other. @throws std::invalid_argument with the nearest name
+/// Between two consecutive states. @throws std::invalid_argument with the nearest name
 [[nodiscard]] StageParticles stage_particles(const StageState& from, const StageState& to, std::string_view name,
                                              double time);
 

@@ -17,12 +17,12 @@ namespace {
 constexpr double thinnest = 1e-6, farthest = 1e9;    // m
 constexpr double lightest = 1e-12, heaviest = 1e18;  // kg
 constexpr double fastest = 1e6;                      // m/s
-constexpr double finest = 1e-6;                      // of a body's size: what numbers of its place must tell apart
+constexpr double finest = 1e-6;                      // of a body's size: what numbers at its position must resolve
 constexpr std::size_t most_extremes = 100;
 
 using Part = StageFault::Part;
 
-/// Whether what a force takes along is endlessly far away after a finite time, by whatever steps.
+/// Whether a force carries a body infinitely far away in finite time, whatever the steps.
 bool runs_away(const Force& force) {
   if (const auto* vortex = std::get_if<Vortex>(&force)) return vortex->acceleration != 0 && vortex->power < -1;
   if (const auto* attractor = std::get_if<Attractor>(&force))
@@ -54,7 +54,7 @@ class Finder {
     tell(Part::node, body.node, "\"" + description_.nodes[body.node].name + "\" " + what);
   }
 
-  // Places, sizes, masses and speeds
+  // Positions, sizes, masses and speeds
 
   void look_at(const StagedBody& body) {
     const Shape& shape = state_.world.shape(body.id);
@@ -97,7 +97,7 @@ class Finder {
       tell(Part::soft, soft, "reaches " + brief_text(away) + " m from the origin; up to 1e9 m goes well");
   }
 
-  // Forces that change faster than steps
+  // Forces that change faster than steps can follow
 
   class Present : public forces::Moment {
    public:
@@ -148,7 +148,7 @@ class Finder {
              (pace.damping > pace.swing && resistance ? ", and exact-quadratic is stable at any" : ""));
   }
 
-  // What none of that tells: the first steps of a copy, without clips and rules
+  // What none of that shows: the first steps of a copy, without clips and rules
 
   void try_first_steps() {
     constexpr std::size_t worth = 20'000, most_steps = 256;

@@ -20,13 +20,13 @@ struct StandingBody {
   Bounds room;
   bool moves;  ///< by itself
 
-  /// Of its bounds the shortest edge, m; infinity for a plane, a mesh or a height field.
+  /// The shortest edge of its bounds, m; infinity for a plane, a mesh or a height field.
   [[nodiscard]] double size() const {
     return is_scenery(shape.solid) ? std::numeric_limits<double>::infinity() : (room.high - room.low).minCoeff();
   }
 };
 
-/// How deep two bodies lie in each other where that is more than touching; else 0.
+/// How deep two bodies overlap if that is more than touching; else 0.
 double overlap_of(const StandingBody& a, const StandingBody& b) {
   const Manifold manifold = collide(a.shape, a.pose, b.shape, b.pose);
   double depth = 0;
@@ -65,7 +65,7 @@ std::vector<StartOverlap> overlaps_in(const StageState& state) {
   return found;
 }
 
-/// How much a push at the anchor moves a body, 1/kg; nothing moves one that is held.
+/// How far a unit push at the anchor moves a body, 1/kg; 0 for a body that is held.
 double give_of(const StageState& state, std::size_t node, const Vec3& anchor) {
   const StagedBody* body = state.body(node);
   if (!body || state.world.is_fixed(body->id) || state.world.owner(body->id) == Owner::keyed) return 0;
@@ -81,7 +81,7 @@ std::vector<StiffSpring> stiff_springs_in(const StageState& state, const StageDe
     if (!kind) continue;
     const Spring& spring = *kind;
     const double give = give_of(state, described.a, spring.anchor_a) + give_of(state, described.b, spring.anchor_b);
-    // The step h at which (stiffness h^2 + damping h) give is 1: above it the solver takes the spring by its end.
+    // The step h at which (stiffness h^2 + damping h) give is 1: above it the solver takes the spring implicitly.
     const double root = std::sqrt(spring.damping * spring.damping + 4 * spring.stiffness / give);
     const double longest = give > 0 ? 2 / give / (spring.damping + root) : description.step;
     if (longest < description.step) found.push_back({i, longest});

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double more_than_rounding = 1e-3;  // of a body's size; rad
 
-/// One described joint as it stands.
+/// A described joint at its start.
 struct Start {
   const JointDescription& described;
   Quat axes_a, axes_b;
@@ -40,7 +40,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// By how much the frames are turned against what the kind holds, rad.
+/// The angle between the frames in what the kind holds, rad.
 double turn_of(const Start& start) {
   const JointKind& kind = start.described.kind;
   const auto axis = [&](const Quat& axes, int i) { return Vec3(axes * Vec3::Unit(i)); };
@@ -80,7 +80,7 @@ class Limited {
     const double y = start_.reading.position[1], z = start_.reading.position[2];
     const double swing = std::hypot(y, z);
     if (!(swing > more_than_rounding)) return;
-    // Where the cone's edge is on the way to where it stands: an ellipse, none where a half angle is 0.
+    // The cone's edge in the joint's direction: an ellipse, none if a half angle is 0.
     const auto part = [](double value, double most) { return most > 0 ? value / most : value != 0 ? infinity : 0; };
     const double share = std::hypot(part(y, limb.swing_y), part(z, limb.swing_z));
     if (share * swing > swing + more_than_rounding * share) {
@@ -117,7 +117,7 @@ void find_joint_starts(const StageState& state, const StageDescription& descript
     const JointDescription& described = description.joints[i];
     const Start start = start_of(state, described, state.joints->list[i]);
     std::visit(Limited(start, i, out.passed_limits), described.kind);
-    // What a rope or a pulley is too long by is told as its limit.
+    // The excess length of a rope or a pulley is reported as its limit.
     const bool has_length =
         std::holds_alternative<DistanceJoint>(described.kind) || std::holds_alternative<PulleyJoint>(described.kind);
     const auto beyond = [](double value, double rounding) { return value > rounding ? value : 0; };

@@ -6,7 +6,7 @@
 
 namespace tweenfall::staging {
 
-/// Of all graphs at the recording's frames; those beyond a bound of memory are left out.
+/// Of all graphs at the recording's frames; those that exceed a limit of memory are left out.
 [[nodiscard]] std::vector<GraphRecord> graph_records(const Stage& stage, std::span<const double> times);
 
 }  // namespace tweenfall::staging

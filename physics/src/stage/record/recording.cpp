@@ -17,7 +17,7 @@ void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& 
   const auto nodes = stage.nodes();
   const std::size_t frame = recording.times.size();
   recording.times.push_back(stage.time());
-  // Nodes that came later lie still where they came in, back to the first frame.
+  // Nodes that were added later are shown at rest where they were added, back to the first frame.
   world.resize(nodes.size());
   stage.world(world);
   for (std::size_t i = recording.nodes.size(); i < nodes.size(); ++i)
@@ -49,7 +49,7 @@ void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& 
   }
 }
 
-/// Those that came later, and those that hold others by the name of one that has gone, have records of their own.
+/// Joints added later, and those that hold other bodies under the name of one that is gone, have records of their own.
 void take_joints(const Stage& stage, Recording& recording) {
   const std::vector<JointEnds> joints = stage.joints();
   const std::size_t frame = recording.times.size() - 1;
@@ -102,7 +102,7 @@ void take_vehicles(const Stage& stage, Recording& recording) {
   }
 }
 
-/// How many there will be is known only as they come.
+/// Their number is known only as they come.
 void take_particles(const Stage& stage, Recording& recording, double& room) {
   for (std::size_t i = 0; i < stage.description().particles.size(); ++i) {
     const ParticlesDescription& described = stage.description().particles[i];
@@ -222,7 +222,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     for (std::size_t& edge : soft.torn_at) edge = std::min(edge, recording.times.size());
   recording.handoffs.assign(stage.handoffs().begin(), stage.handoffs().end());
   recording.events.assign(stage.events().begin(), stage.events().end());
-  std::ranges::stable_sort(recording.events, {}, &StageEvent::time);  // contacts are told a little later
+  std::ranges::stable_sort(recording.events, {}, &StageEvent::time);  // contacts are reported a little later
   recording.unfired = stage.unfired_rules();
   return recording;
 }

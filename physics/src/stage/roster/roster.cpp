@@ -26,7 +26,7 @@ Motion about_origin(Motion motion, const Twist& at_center, const Vec3& center) {
   return motion;
 }
 
-/// What the world is told of the description's body.
+/// The world's settings for the description's body.
 BodySettings settings_of(const StageState& state, NodeId node, const BodyDescription& body, const WorldMotion& start,
                          const Vec3& scale) {
   BodySettings settings{.shape = scaled(body.shape, scale),
@@ -63,13 +63,13 @@ void forget_gone_rules(StageState& state) {
   state.gone_rules = 0;
 }
 
-/// What is known of a node from its parents: a long chain of them is not climbed again.
+/// What is known of a node from its parents, so that a long chain of them is not climbed again.
 struct PlacedNode {
   const WorldMotion& authored;  ///< where the animation has it
   const RestAxes& axes;
 };
 
-/// Puts the description's body on its node. When it throws, nothing has changed.
+/// Puts the description's body on its node. If it throws, nothing has changed.
 void add_body(StageState& state, NodeId node, const BodyDescription& body, const PlacedNode* placed = nullptr) {
   Path path(state.animation, node, state.time);
   const WorldMotion start = placed ? path.world(state.time, placed->authored) : path.world(state.time);
@@ -96,7 +96,7 @@ void add_body(StageState& state, NodeId node, const BodyDescription& body, const
   state.bodies[state.body_of[node]] = std::move(staged);
 }
 
-/// Hangs the last node below its parent.
+/// Links the last node to its parent.
 void link(StageState& state, NodeId node, NodeId parent) {
   state.first_child.push_back(no_node);
   state.next_sibling.push_back(parent == no_node ? no_node : std::exchange(state.first_child[parent], node));
@@ -174,7 +174,7 @@ void validate(const Rule& rule) {
   }
 }
 
-/// @throws std::invalid_argument for a rest pose that is none
+/// @throws std::invalid_argument for an impossible rest pose
 Node checked_node(const NodeDescription& node) {
   Pose rest = node.rest;
   const double turn = rest.rotation.norm();
@@ -188,7 +188,7 @@ Node checked_node(const NodeDescription& node) {
   return {node.name, node.parent, rest, node.color, {}};
 }
 
-/// Events are told step by step, each step's all at once.
+/// Events are reported step by step, each step's all at once, so their number must be limited.
 void require_countable_events(const StageDescription& description) {
   for (const Play& play : description.plays)
     if (const std::string fault = too_many_events(play, description.clips[play.clip], description.step + sliver);
@@ -200,7 +200,7 @@ void require_countable_events(const StageDescription& description) {
 
 namespace {
 
-/// Calls `make`; what it refuses is a fault of that part.
+/// Calls `make`; what it throws is a fault of that part.
 template <class Make>
 bool attempt(std::vector<StageFault>& faults, StageFault::Part part, std::size_t index, const std::string& before,
              const Make& make) {
@@ -293,7 +293,7 @@ StageState described_state(const StageDescription& description, std::vector<Stag
       add_body(state, node, *described.body, &placed);
     });
   }
-  // Forces and rules of bodies that could not be made would only be more of the same.
+  // Forces and rules of bodies that could not be made would only repeat these faults.
   if (!faults.empty()) return state;
   for (std::size_t i = 0; i < description.forces.size(); ++i)
     attempt(faults, Part::force, i, "", [&] { add_described_force(state, description.forces[i]); });
@@ -342,7 +342,8 @@ void arm_rule(StageState& state, const Rule& rule) {
     const auto take = [&](std::size_t index) {
       const StagedBody& body = state.bodies[index];
       any = true;
-      // Of those that a pattern names, what can be taken is taken: what is static, or has no mass, stays as it is.
+      // Of the bodies a pattern names, those that can be taken are taken: static ones, or those without mass, stay as
+      // they are.
       if (!one && (state.world.is_fixed(body.id) || (!keyed_always && !has_mass(state, body)))) return;
       meant.push_back(index);
     };
@@ -378,7 +379,7 @@ void require_possible(const StageState& state, const StagedBody& body, const Own
 
 namespace {
 
-/// Everything that was bound to the old nodes, bound to these.
+/// Binds everything that was bound to the old nodes to these.
 void rebind(StageState& state, std::shared_ptr<const Hierarchy> nodes) {
   state.animation = std::make_shared<const Animation>(state.animation->with_nodes(nodes));
   state.nodes = std::move(nodes);
@@ -396,7 +397,7 @@ NodeId add_node(StageState& state, const NodeDescription& node) {
   const bool again = old && !state.present[*old];
   const auto nodes = std::make_shared<Hierarchy>(*state.nodes);
   const NodeId id = again ? nodes->add_again(std::move(added)) : nodes->add(std::move(added));
-  // What is bound to nodes that stay what they were stays bound; only tracks that name the new one are bound to it.
+  // What is bound to unchanged nodes stays bound; only tracks that name the new one are bound to it.
   const bool named = again && state.animation->has_tracks(*old);
   const std::shared_ptr<const Hierarchy> old_nodes = state.nodes;
   const std::shared_ptr<const Animation> old_animation = state.animation;

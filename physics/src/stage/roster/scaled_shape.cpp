@@ -28,7 +28,7 @@ bool is_diagonal(const Mat3& matrix) {
   return rest.cwiseAbs().maxCoeff() <= hairline * matrix.cwiseAbs().maxCoeff();
 }
 
-/// Files hold scales as floats, and products of them.
+/// Files store scales as floats, and products of them.
 constexpr double even_enough = 1e-6;
 
 double uniform(const Vec3& scale, const char* what) {
@@ -39,7 +39,7 @@ double uniform(const Vec3& scale, const char* what) {
   return size.x();
 }
 
-/// A solid turned about y, mirrored by an even scale, points where its mirrored axis does.
+/// A solid of revolution about y, mirrored by a uniform scale, points where its mirrored axis does.
 void mirror(Shape& shape, const Vec3& scale) {
   const Vec3 axis = shape.offset.rotation * Vec3(0, 1, 0);
   const Vec3 mirrored = axis.cwiseProduct(scale.cwiseQuotient(scale.cwiseAbs()));
@@ -47,7 +47,7 @@ void mirror(Shape& shape, const Vec3& scale) {
   shape.offset.rotation = (shapes::turn_onto(axis, mirrored) * shape.offset.rotation).normalized();
 }
 
-/// A height field stays one where its grid does.
+/// A height field stays one as long as its grid does.
 Solid scaled_surface(const Solid& solid, const Mat3& own) {
   const auto* field = std::get_if<HeightField>(&solid);
   if (field && is_diagonal(own) && own.diagonal().minCoeff() > 0) {

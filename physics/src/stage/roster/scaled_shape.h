@@ -5,13 +5,13 @@
 
 namespace tweenfall::staging {
 
-/// What the rest poses of a node and its ancestors make of it.
+/// The axes that the rest poses of a node and its ancestors give it.
 struct RestAxes {
   Mat3 linear = Mat3::Identity(), turn = Mat3::Identity();
   bool scaled = false;
 };
 
-/// Of a node. @param parent  its parent's; those of no parent are the default
+/// For a node. @param parent  its parent's; without a parent, the default
 [[nodiscard]] RestAxes rest_axes_below(const RestAxes& parent, const Pose& rest);
 [[nodiscard]] RestAxes rest_axes(const Hierarchy& nodes, std::size_t node);
 
@@ -20,7 +20,7 @@ struct RestAxes {
 [[nodiscard]] Vec3 rest_scale(const RestAxes& axes);
 
 /// The shape as large as it is drawn on a node of this scale.
-/// @throws std::invalid_argument where no solid of its kind has the scaled shape
+/// @throws std::invalid_argument if no solid of its kind has the scaled shape
 [[nodiscard]] Shape scaled(const Shape& shape, const Vec3& scale);
 
 }  // namespace tweenfall::staging

@@ -61,7 +61,7 @@ const StagedJoint& joint_called(const StageState& state, std::string_view name) 
                               (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
 }
 
-/// When a joint ends, in (from, to]; infinity when it does not.
+/// When a joint ends, in (from, to]; infinity if it does not.
 double end_time_of(const StageState& state, const StagedJoint& joint, double from, double to) {
   if (!state.world.contains(joint.id)) return infinity;
   double time = infinity;

@@ -59,7 +59,7 @@ void add_pin(StageState& state, WholePose& pose, const SoftDescription& describe
   settings.pins.push_back(pin);
 }
 
-/// When a pin lets go, in (from, to]; infinity when it does not.
+/// When a pin lets go, in (from, to]; infinity if it does not.
 double end_time_of(const StageState& state, const EndingPin& pin, double from, double to) {
   double time = infinity;
   if (const auto* at = std::get_if<when::At>(&pin.until)) time = at->time;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Soft bodies of a stage: which of the world's each is, and the nodes that hold them.
+// Soft bodies of a stage: their handles in the world, and the nodes that hold them.
 
 #include <tweenfall/physics/soft_body.h>
 
@@ -37,17 +37,17 @@ struct StagedSofts {
   std::vector<EndingPin> ending;
 };
 
-/// Adds the description's soft bodies to the world. Those that make none are faults.
+/// Adds the description's soft bodies to the world. Impossible ones are faults.
 void add_softs(StageState& state, const StageDescription& description, std::vector<StageFault>& faults);
-/// Tells pins to nodes without bodies where these are. @param pose  at the end of the step
+/// Moves pins to nodes without bodies to where these are. @param pose  at the end of the step
 void lead_pins(StageState& state, WholePose& pose);
-/// The first moment in (from, to] at which a pin lets go; infinity when there is none.
+/// The first moment in (from, to] at which a pin lets go; infinity if there is none.
 [[nodiscard]] double next_pin_end(const StageState& state, double from, double to);
-/// Takes away pins whose end is due in (from, state.handled].
+/// Removes pins whose end is due in (from, state.handled].
 void end_pins(StageState& state, double from, std::vector<Happening>& happenings);
-/// Tells what tore in the world's last step.
+/// Reports what tore in the world's last step.
 void report_tears(const StageState& state, std::vector<Happening>& happenings);
-/// Between two states that follow each other. @throws std::invalid_argument with the nearest name
+/// Between two consecutive states. @throws std::invalid_argument with the nearest name
 [[nodiscard]] SoftNodes soft_nodes(const StageState& from, const StageState& to, std::string_view name, double time);
 
 }  // namespace tweenfall::staging

@@ -26,7 +26,7 @@ struct Touch {
   double speed = 0;
 };
 
-/// Which of the world's contacts each body has a part in.
+/// Which of the world's contacts each body takes part in.
 class ContactsByBody {
  public:
   explicit ContactsByBody(const StageState& state) : starts_(state.node_of.size() + 1, 0) {
@@ -57,7 +57,7 @@ const Blow* blow_of(const StageState& state, const Contact& contact) {
   return found != state.blows.end() && found->a == contact.a && found->b == contact.b ? &*found : nullptr;
 }
 
-/// All that touched the body in the last piece; a blow that is still going on, with all it has taken.
+/// Everything that touched the body in the last piece; a blow that is still going on counts with its impulse so far.
 std::vector<Touch> touches(const StageState& state, const ContactsByBody& contacts, BodyId body) {
   std::vector<Touch> found;
   for (const std::size_t place : contacts.of(body)) {
@@ -79,7 +79,7 @@ bool pulls(const StageState& state, const Trigger& trigger, const Touch& touch) 
          (hit->with.empty() || matches(hit->with, state.name_of(touch.other)));
 }
 
-/// Remembers which of the rule's contact triggers were pulled; whether that is enough for it to fire.
+/// Latches those of the rule's contact triggers that were pulled. @return whether that is enough for it to fire.
 bool latch(ArmedRule& armed, const StageState& state, const ContactsByBody& contacts) {
   const Rule& rule = *state.rules[armed.rule];
   bool any = false;
@@ -107,7 +107,7 @@ bool any_pulled(const StageState& state, const ContactsByBody& contacts, const A
   });
 }
 
-/// The state with the body of an armed rule handed over, moved on to `end`: what its blow would be.
+/// The state with the body of an armed rule handed over, moved on to `end`: this shows what its blow would be.
 StageState tried(const StageState& state, std::size_t armed, double end, double step) {
   const OwnerChange change = state.rules[state.armed[armed].rule]->change();
   StageState trial = state;
@@ -136,7 +136,7 @@ struct PieceStart {
   }
 };
 
-/// How fast a contact closes where it is, its bodies moving so, m/s. @param twist_of  at the center of mass
+/// How fast a contact closes if its bodies move like this, m/s. @param twist_of  at the center of mass
 template <class TwistOf>
 double closing_speed(const World& world, const Contact& contact, TwistOf&& twist_of) {
   const auto velocity = [&](BodyId body, const Vec3& point) {
@@ -151,14 +151,15 @@ double closing_speed(const World& world, const Contact& contact, TwistOf&& twist
   return closing;
 }
 
-/// What closes at more than this times the length of a piece was not brought there by its weight in it, m/s^2.
+/// If a contact closes faster than this times the length of a piece, it was not its weight that brought it there,
+/// m/s^2.
 double faster_than_weight(const StageState& state) {
   return 2 * state.gravity.norm() + 1e-4;
 }
 
 /// How much of a contact's impulse was the blow. What presses on for the rest of the piece is weight: without the
-/// contact the two would have closed at the speed of the impact and, after it, at what they fell further, and one and
-/// the same mass answered for both. Of what parts again, nothing was weight.
+/// contact the two would have closed at the speed of the impact plus what they would have fallen after it, and the
+/// same mass accounts for both parts. If the two part again, nothing was weight.
 double part_of_blow(const StageState& state, const Contact& contact, const std::vector<Twist>& before, double dt) {
   constexpr double parts = 1e-3;  // of the speed at which they met
   const World& world = state.world;
@@ -203,10 +204,11 @@ double time_of_impact(const StageState& state, const Contact& contact, const Pie
   return time;
 }
 
-/// Adds what the contacts of the last piece took to the blows that they belong to, and tells those that are over. A
-/// blow that falls on the end of a piece goes on in the next: it is over when the bodies no longer close.
+/// Adds the impulses of contacts in the last piece to the blows they belong to, and reports those that are over. A
+/// blow that falls on the end of a piece continues in the next: it is over when the bodies no longer close.
 ///
-/// Each has the time at which the bodies met, which may lie in a piece before the one at whose end it is told.
+/// Each has the time at which the bodies met, which may lie in an earlier piece than the one at whose end it is
+/// reported.
 void follow_blows(StageState& state, const PieceStart& before, double step, std::vector<Happening>& happenings) {
   const double dt = state.time - before.time;
   constexpr double closes = 1e-3;  // of the speed at which they met
@@ -240,7 +242,7 @@ void follow_blows(StageState& state, const PieceStart& before, double step, std:
       else
         tell(blow);
     } else if (contact.impulse > 0 && closing > faster_than_weight(state) * dt) {
-      blow.began = state.time;  // only grazed as yet: what swings in fast strikes in the next piece
+      blow.began = state.time;  // only grazed so far: a body that swings in fast strikes in the next piece
       going_on.push_back(blow);
     }
   }
@@ -252,7 +254,7 @@ void follow_blows(StageState& state, const PieceStart& before, double step, std:
   state.blows = std::move(going_on);
 }
 
-/// Moves the world to `end`, where it has been told what its bodies shall do.
+/// Moves the world to `end`, after its bodies have got their targets.
 void step_told_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {
   const PieceStart before(state);
   const ParticleStep particles(state);
@@ -280,8 +282,8 @@ void step_world(StageState& state, double end, double step, std::vector<Happenin
   step_told_world(state, end, step, happenings);
 }
 
-/// Moves the world to just before an impact on a keyed body, which then leaves from its own path. Until then it stands,
-/// so that nothing of the blow comes early: contacts are foreseen as flat and near ones may act before shapes touch.
+/// Moves the world to just before an impact on a keyed body, which then leaves from its own path. The body stands still
+/// meanwhile, so that nothing of the blow comes early: contacts are predicted as flat, and near ones may act too early.
 void approach(StageState& state, BodyId body, double end, double step, std::vector<Happening>& happenings) {
   const bool presses = std::ranges::any_of(
       state.world.contacts(), [&](const Contact& c) { return (c.a == body || c.b == body) && c.impulse > 0; });
@@ -290,7 +292,7 @@ void approach(StageState& state, BodyId body, double end, double step, std::vect
   step_told_world(state, end, step, happenings);
 }
 
-/// A contact between two bodies that physics does not move: the world knows nothing of it.
+/// A contact between two bodies that physics does not move: the world does not report it.
 void report_touch(const StageState& state, const Meeting& meeting, const Touch& touch,
                   std::vector<Happening>& happenings) {
   StageEvent event;
@@ -303,9 +305,10 @@ void report_touch(const StageState& state, const Meeting& meeting, const Touch& 
   happening.what.emplace<StageEvent>(std::move(event));
 }
 
-/// Moves `state` to the first impact before `end` at which a rule frees its keyed body, and fires it there: judged by
-/// the whole blow that the body would take if it were free, otherwise what struck it would bounce off an infinite mass
-/// and the difference in momentum would vanish. @return whether there was one; if not, `state` is where it was
+/// Moves `state` to the first impact before `end` at which a rule frees its keyed body, and fires it there. The rule is
+/// judged by the whole blow that the body would take if it were free; otherwise what struck it would bounce off an
+/// infinite mass, and the difference in momentum would vanish. @return whether there was one; if not, `state` is as
+/// before
 bool fire_at_impact(StageState& state, double end, double step, std::vector<Happening>& happenings) {
   std::vector<char> watched(state.bodies.size(), 0);
   bool any = false;
@@ -334,7 +337,7 @@ bool fire_at_impact(StageState& state, double end, double step, std::vector<Happ
       const bool fires = latch(after, trial, contacts);
       state.armed[i].attempt = armed.attempt = after.attempt;
       if (!fires) {
-        state.armed[i].latched = armed.latched = after.latched;  // of an `all`: this one has come, others have not
+        state.armed[i].latched = armed.latched = after.latched;  // of an `all`: this trigger has come, others have not
         for (const Touch& one : touches(trial, contacts, body))
           if (one.other == meeting.other) touch = one;
         continue;
@@ -362,8 +365,9 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
   }
   if (fire_at_impact(state, end, step, happenings)) return;
 
-  // What presses without a blow, or is struck through others, is judged by what it took in the piece, and freed at the
-  // piece's start. Freeing one may strike the next, so this goes on until no more are freed; each rule fires once.
+  // A body that is pressed without a blow, or struck through others, is judged by its impulse in the piece, and freed
+  // at the piece's start. Freeing one may strike the next, so this repeats until no more are freed; each rule fires
+  // once.
   StageState start = state;
   std::vector<Happening> moved;
   step_world(state, end, step, moved);

@@ -6,7 +6,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// Whether a track moves a body: what moves none may jump as it likes, for physics need not know.
+/// Whether a track moves a body: others may jump as they like, since physics need not know.
 TrackFilter carrying(const StageState& state, const std::vector<char>& carriers) {
   return [&nodes = *state.nodes, &carriers](const Track& track) {
     const auto node = nodes.find(track.node);

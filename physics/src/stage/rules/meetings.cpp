@@ -12,11 +12,11 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// Nearer than this two shapes have met, m.
+/// Shapes nearer than this have met, m.
 constexpr double hair = 1e-7;
 constexpr int most_advances = 64;
 
-/// One body on its way through the piece.
+/// The path of one body through the piece.
 struct Course {
   const StagedBody* body = nullptr;
   std::size_t index = 0;
@@ -24,10 +24,10 @@ struct Course {
   Motion start;
   Vec3 center{0, 0, 0};
   Vec3 acceleration{0, 0, 0};
-  bool follows = false;  ///< its path, exactly
+  bool follows = false;  ///< it follows its path, exactly
   bool movable = false;
-  double speed = 0;   ///< that no point of it exceeds, m/s
-  Bounds reach = {};  ///< all that it may touch
+  double speed = 0;   ///< upper bound of the speed of its points, m/s
+  Bounds reach = {};  ///< everything that it may touch
 
   [[nodiscard]] Pose at(double from, double time) const {
     const double since = time - from;
@@ -39,14 +39,14 @@ struct Course {
   }
 };
 
-/// Farthest that a point of the shape is from its node, m.
+/// Greatest distance of a point of the shape from its node, m.
 double radius_of(const Shape& shape) {
   const Bounds box = bounds(shape, {});
   const Vec3 corner = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs());
   return corner.allFinite() ? corner.norm() : 0;
 }
 
-/// The pairs that press on each other, sorted as the world's contacts are, and whether a body is one of them.
+/// The pairs that press on each other, sorted like the world's contacts, and whether a body is in one of them.
 struct Pressing {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   std::vector<char> bodies;
@@ -77,7 +77,7 @@ Course course_of(const StageState& state, std::size_t index, double end, const P
   course.movable = owner != Owner::keyed;
   if (owner == Owner::keyed) {
     course.follows = true;
-    // A curve says nothing of its greatest speed: looked at in several places, with room to spare.
+    // A curve does not give its greatest speed: it is sampled at several places, with room to spare.
     constexpr int places = 4;
     for (int i = 0; i <= places; ++i) {
       const Motion motion = body.path.at(state.time + dt * i / places, i == places ? Side::in : Side::out);
@@ -85,7 +85,7 @@ Course course_of(const StageState& state, std::size_t index, double end, const P
     }
     course.speed *= 1.25;
   } else if (!state.world.asleep(body.id)) {
-    // What rests or rolls on something does not fall.
+    // A body that rests or rolls on something does not fall.
     if (owner == Owner::free && !pressing.bodies[body.id.index]) course.acceleration = state.gravity;
     course.speed = state.world.twist(body.id).linear.norm() + course.acceleration.norm() * dt +
                    course.start.twist.angular.norm() * radius;
@@ -99,7 +99,7 @@ bool overlap(const Bounds& a, const Bounds& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-/// The time just before two shapes that were apart first touch; by conservative advancement (Mirtich, Impulse-based
+/// The time just before two separated shapes first touch; by conservative advancement (Mirtich, Impulse-based
 /// Dynamic Simulation of Rigid Body Systems, 1996, chapter 2).
 std::optional<double> first_touch(const Course& a, const Course& b, double from, double end) {
   double time = from;

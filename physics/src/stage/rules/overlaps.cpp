@@ -54,7 +54,7 @@ std::optional<double> last_clear(const StageState& state, const StagedBody& body
   double late = instant;
   for (double early = instant; early > first;) {
     early = std::max(first, early - step / 4);
-    // Of what was before the body came to this path nothing was shown.
+    // Nothing was shown of the path before the body came to it.
     if (body.path.side_at(early, Side::in) == Side::out && early > 0) return std::nullopt;
     if (!is_clear(state, body, early)) {
       late = early;
@@ -62,7 +62,7 @@ std::optional<double> last_clear(const StageState& state, const StagedBody& body
     }
     while (late - early > exact) {
       const double middle = early + 0.5 * (late - early);
-      if (middle == early || middle == late) break;  // so late that there are no times between
+      if (middle == early || middle == late) break;  // so late that there are no times in between
       (is_clear(state, body, middle) ? early : late) = middle;
     }
     return early;

@@ -11,7 +11,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// The same motion with its twist told at the center of mass: v = v_o + w x r.
+/// The same motion with its twist at the center of mass: v = v_o + w x r.
 Motion about_center(Motion motion, const Vec3& center) {
   const Vec3 arm = motion.pose.rotation * center;
   motion.twist = shifted(motion.twist, arm);
@@ -31,7 +31,7 @@ Twist scaled_and_added(Twist twist, const TakeOver& settings) {
   return twist;
 }
 
-/// What a body that a drive lets go does with the twist that it has of its own.
+/// Applies the settings to the own twist of a body that a drive lets go.
 void change_own_twist(World& world, BodyId body, const Vec3& center, const TakeOver& settings, Motion& after) {
   const bool zero = settings.velocity == TakeOver::Velocity::zero;
   const Twist twist = scaled_and_added(zero ? Twist{} : after.twist, settings);
@@ -72,13 +72,13 @@ std::shared_ptr<const std::vector<SettlingNode>> settling_below(const StageState
   below->reserve(carried.size());
   for (const NodeId node : carried) {
     const Motion shown = local_motion(state, &body, node, time, Side::in);
-    const Motion led = state.animation->sample_node(node, time, Side::out, next.clock());  // paths know of none since
+    const Motion led = state.animation->sample_node(node, time, Side::out, next.clock());  // no path, so no `since`
     below->push_back({node, SettleOffset(settle, time, led, shown), size_offset(settle, time, led, shown)});
   }
   return below;
 }
 
-/// Whether the body may not leave its path, because it lies in others: that is told.
+/// Whether the body may not leave its path because it overlaps others; if so, this is reported.
 bool is_vetoed(const StageState& state, const StagedBody& body, double instant, const TakeOver& take_over,
                std::vector<Happening>& happenings) {
   if (take_over.overlap != TakeOver::Overlap::veto) return false;
@@ -94,7 +94,7 @@ bool is_vetoed(const StageState& state, const StagedBody& body, double instant, 
   return true;
 }
 
-/// The body no longer meets what it lies in, until they are apart.
+/// Lets the body pass through what it overlaps until they are apart.
 void pass_through(StageState& state, const StagedBody& body, double instant) {
   for (const BodyId& other : bodies_in(state, body, rigid(body.path.at(instant, Side::in)).pose)) {
     state.world.ignore(body.id, other);
@@ -102,7 +102,7 @@ void pass_through(StageState& state, const StagedBody& body, double instant) {
   }
 }
 
-/// When the path of a body that shall be rewound was last clear; nothing when it is, or was not for long.
+/// When the path of a body to be rewound was last clear; empty if it is clear now, or was not for long.
 std::optional<double> clear_time(const StageState& state, const StagedBody& body, const Pose& pose, double instant,
                                  const TakeOver& take_over, double step) {
   if (take_over.overlap != TakeOver::Overlap::rewind || bodies_in(state, body, pose).empty()) return {};
@@ -162,11 +162,11 @@ bool change_owner(StageState& state, std::size_t index, const OwnerChange& chang
     const Motion motion = moved_on(world.motion(body.id), center, -onward);
     handoff.before = about_center(motion, center);
     handoff.after = handoff.before;
-    // Taken back, or from free to a drive, it follows a path again.
+    // If it is taken back, or goes from free to a drive, it follows a path again.
     const Owner last = change.to.owner();
     const bool follows = last == Owner::keyed || (handoff.to == Owner::driven && handoff.from == Owner::free) ||
                          (last == Owner::driven && !hand_back.clip.empty());
-    // What is due a moment after a step is done at the step: the path begins there, or it would not yet have begun.
+    // What is due just after a step is done at the step: the path starts there, or it would not yet have started.
     const double begins = std::min(instant, state.time);
     const Motion beginning = moved_on(world.motion(body.id), center, begins - state.time);
     const auto below = [&](const Path& next) { return settling_below(state, body, next, hand_back.settle, begins); };

@@ -51,7 +51,7 @@ void for_each_tracked(const StageState& state, std::span<const PlayedTrack<T>> a
   }
 }
 
-/// The drive as the playing clips have it at the state's time, from the body's own on.
+/// The drive that the playing clips give at the state's time, mixed over the body's own.
 Drive played_drive(const StageState& state, const StagedBody& body, std::span<const PlayedTrack<double>> tracks) {
   Drive drive = body.drive;
   for_each_played(state, body, tracks, [&](double hz, double weight) {
@@ -60,7 +60,7 @@ Drive played_drive(const StageState& state, const StagedBody& body, std::span<co
   return drive;
 }
 
-/// Calls `visit(body, drive)` for each body whose drive a track has.
+/// Calls `visit(body, drive)` for each body whose drive has a track.
 template <class Visit>
 void for_each_driven(const StageState& state, const Visit& visit) {
   for_each_tracked<double>(state, state.tracks->drives,
@@ -86,7 +86,7 @@ void follow_surface_tracks(StageState& state) {
 }
 
 /// The tracks of a property among all clips, in order of their nodes.
-/// @param checked  called with track and body, null for none; throws for what the property is not for
+/// @param checked  called with track and body, null for none; throws if the property does not apply
 template <class T, class Check>
 std::vector<PlayedTrack<T>> tracks_of(const StageState& state, const char* property, const char* kind,
                                       const Check& checked) {

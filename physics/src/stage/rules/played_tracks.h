@@ -1,12 +1,12 @@
 #pragma once
 
-// What of a body's physics clips animate: tracks named "drive_hz" and "surface_velocity".
+// Properties of a body's physics that clips animate: tracks named "drive_hz" and "surface_velocity".
 
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
 
-/// Finds the tracks, and has each body begin with the drive that it is given: that is no hand-off.
+/// Finds the tracks, and lets each body start with the drive that they give it: that is no hand-off.
 /// @throws std::invalid_argument naming a track whose values are of another kind, or whose node has no body for it
 void start_played_tracks(StageState& state);
 

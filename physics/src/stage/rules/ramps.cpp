@@ -9,7 +9,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// Between a limit and none there is none.
+/// Between a limit and no limit there is no limit.
 double even(double from, double to, double share) {
   if (share <= 0 || from == to) return from;
   if (share >= 1) return to;
@@ -55,7 +55,7 @@ Drive drive_on(const Ramp& ramp, double time) {
 void follow_ramps(StageState& state) {
   for (const StagedBody& body : state.bodies) {
     if (!body.present || !body.ramp) continue;
-    // To be told what it knows is a change to a body, too.
+    // Setting a drive is a change to a body even if it is the same, so it is avoided.
     const Drive drive = drive_on(*body.ramp, state.time);
     if (drive != state.world.drive(body.id)) state.world.set_drive(body.id, drive);
   }

@@ -1,29 +1,29 @@
 #pragma once
 
-// What becomes of a body some time after a change: its drive goes on along its ramp, and the next change comes.
+// What happens to a body some time after a change: its drive moves along its ramp, and the next change comes.
 
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
 
-/// Softer than the first of these is as good as free and stiffer than the second as good as keyed, Hz.
+/// Softer than the first of these counts as free, and stiffer than the second as keyed, Hz.
 inline constexpr double softest_hz = 0.01, stiffest_hz = 1000;
 
-/// The frequency that lies evenly in the logarithm between two. @param share  of the second, 0 to 1
+/// The frequency between two, evenly in the logarithm. @param share  of the second, 0 to 1
 [[nodiscard]] double hz_between(double from, double to, double share);
 
-/// The drive with which a ramp begins: finite, so that the body is driven.
+/// The drive with which a ramp starts: finite, so that the body is driven.
 [[nodiscard]] Drive drive_at_start(const Ramp& ramp);
-/// @param time  at which it is neither before its start nor over
+/// @param time  between the ramp's start and end
 [[nodiscard]] Drive drive_on(const Ramp& ramp, double time);
 
 /// Gives bodies on a ramp the drive of the state's time.
 void follow_ramps(StageState& state);
 
-/// What comes after a change of the rule, if anything does. @param place  in the rule's `then`
+/// Schedules the change of the rule after this one, if there is one. @param place  index in the rule's `then`
 void wait_for_next(const StageState& state, StagedBody& body, std::size_t rule, std::size_t place, double began);
 
-/// First moment in (from, to] at which a ramp ends or a change comes after another; infinity for none.
+/// First moment in (from, to] at which a ramp ends or a later change is due; infinity for none.
 [[nodiscard]] double next_change(const StageState& state, double from, double to);
 
 /// When a ramp of the body ends or its next change comes; infinity for none.

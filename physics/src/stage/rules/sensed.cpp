@@ -9,7 +9,7 @@ namespace tweenfall::staging {
 namespace {
 
 void tell(const StageState& state, const SensorOverlap& overlap, const char* name, std::vector<Happening>& happenings) {
-  // Of what was taken away there is nothing to tell.
+  // Nothing is reported for what was removed.
   if (!state.world.contains(overlap.sensor) || !state.world.contains(overlap.body)) return;
   StageEvent event;
   event.time = state.time;

@@ -7,13 +7,13 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// Times at which speeds are compared are multiples of this, so that a peak is found at the same time whatever stretch
-/// is asked about, s.
+/// Speeds are compared at multiples of this time, so that a peak is found at the same time whatever stretch
+/// is searched, s.
 constexpr double grid = 1.0 / 2048;
 constexpr double most_cells = 1e5;
-/// Over which the slope of a speed is found, s.
+/// Time over which the slope of a speed is computed, s.
 constexpr double beside = 1e-5;
-/// Part of a speed by which it must be greater than those a cell before and after it.
+/// A speed must exceed those a cell before and after it by this part to be a peak.
 constexpr double told_apart = 1e-12;
 
 class SpeedOnPath {

@@ -32,13 +32,13 @@ void tell_strain(const StageState& state, const char* name, const char* what, do
   happening.what = std::move(event);
 }
 
-// What lasts so long is told, and once more after it has fallen below half of that.
+// What exceeds this for `lasting` is reported, and again only after it has fallen below half of it.
 constexpr double too_much = 0.05;  // of the smaller body's size; rad; of a speed
 constexpr double well_again = 0.5;
 constexpr double lasting = 0.05;  // s
-constexpr double least = 1e-3;    // m; what lies less deep is no strain, however small it is
+constexpr double least = 1e-3;    // m; less deep overlap is no strain, however small the body
 
-/// Whether a strain that has gone on since then is to be told now.
+/// Whether a strain that has lasted since then is to be reported now.
 template <class Strained>
 bool is_news(Strained& strain, double now) {
   if (strain.told || now - strain.since < lasting - sliver) return false;
@@ -70,7 +70,7 @@ void report_overlaps(StageState& state, std::vector<Happening>& happenings) {
   state.strained = std::move(deep);
 }
 
-/// What a joint cannot hold, and how much of it: 1 is worth telling.
+/// What a joint cannot hold, and how much of it: 1 is worth reporting.
 struct JointStrain {
   double share = 0;
   const char* what = "gap";
@@ -83,7 +83,7 @@ struct JointStrain {
 
 class StrainOfKind {
  public:
-  /// @param turn  of b's frame against a's
+  /// @param turn  of b's frame relative to a's
   StrainOfKind(const JointReading& reading, const Quat& turn, double size, JointStrain& strain)
       : reading_(reading), turn_(turn), size_(size), strain_(strain) {}
 
@@ -91,8 +91,8 @@ class StrainOfKind {
   void operator()(const FixedJoint&) const { turned_by(angle_of(turn_)); }
   void operator()(const GearJoint& gear) const { turned_by(gear.ratio * reading_.position[0] + reading_.position[1]); }
   void operator()(const SpringJoint&) const {}
-  void operator()(const PulleyJoint&) const {}    // its length is its gap
-  void operator()(const DistanceJoint&) const {}  // as is this one's
+  void operator()(const PulleyJoint&) const {}    // its excess length is its gap
+  void operator()(const DistanceJoint&) const {}  // likewise
   void operator()(const HingeJoint& hinge) const {
     turned_by(off_axis());
     coordinate(0, hinge.limits, hinge.motor, 1);
@@ -116,19 +116,19 @@ class StrainOfKind {
     constexpr double narrowest = 1e-3;
     const Vec2 width(std::max(limb.swing_y, narrowest), std::max(limb.swing_z, narrowest));
     const Vec2 scaled(reading_.position[1] / width.x(), reading_.position[2] / width.y());
-    // To first order, the way back to the cone's edge.
+    // To first order, the distance to the cone's edge.
     const double share = scaled.norm();
     if (share > 1) turned_by((share - 1) * share / scaled.cwiseQuotient(width).norm());
   }
 
  private:
   static double angle_of(const Quat& turn) { return 2 * std::atan2(turn.vec().norm(), std::abs(turn.w())); }
-  /// Between the frames' x axes.
+  /// Angle between the frames' x axes.
   [[nodiscard]] double off_axis() const {
     const Vec3 x = turn_ * Vec3::UnitX();
     return std::atan2(std::hypot(x.y(), x.z()), x.x());
   }
-  /// Farther than the joint lets it, rad.
+  /// Turned farther than the joint allows, rad.
   void turned_by(double angle) const { strain_.take("beyond_limit", std::abs(angle), too_much); }
 
   /// @param unit  of the coordinate: a radian, or the size of a body
@@ -139,7 +139,7 @@ class StrainOfKind {
     if (limits && limits->hz == 0)
       strain_.take("beyond_limit", std::max(limits->low - position, position - limits->high), most);
     if (!motor || motor->position || std::isfinite(motor->max_force)) return;
-    // At the end of its way a motor rests.
+    // At the end of its range a motor rests.
     if (limits && (motor->speed > 0 ? position > limits->high - most : position < limits->low + most)) return;
     strain_.take("missing_speed", std::abs(motor->speed - reading_.rate[i]),
                  std::max(std::abs(motor->speed), unit) * too_much);
@@ -155,7 +155,7 @@ bool moves(const World& world, const BodyId& body) {
   return !world.is_fixed(body) && world.owner(body) != Owner::keyed;
 }
 
-/// Between ends of which none can move a joint does nothing.
+/// Between ends that cannot move, a joint does nothing.
 JointStrain strain_of(const StageState& state, const StagedJoint& joint) {
   const BodyId b = state.bodies[state.body_of[joint.b]].id;
   const BodyId a = joint.a == no_node ? b : state.bodies[state.body_of[joint.a]].id;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What is asked too much of: bodies that lie deep in each other, joints that cannot hold what they are to hold.
+// What is strained too much: bodies that overlap deeply, and joints that cannot hold what they should hold.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 
 namespace tweenfall::staging {
 
-/// Tells, once it has lasted, of bodies that lie deep in each other, and of joints that stand open, are beyond their
-/// hard limits, or whose motors of any force do not reach their speed.
+/// Reports bodies that overlap deeply for some time, and joints that for some time are open, are beyond their
+/// hard limits, or whose motors of unlimited force do not reach their speed.
 void report_strains(StageState& state, std::vector<Happening>& happenings);
 
 }  // namespace tweenfall::staging

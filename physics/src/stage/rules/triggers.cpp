@@ -14,7 +14,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// End of the last play that moves the node; infinity while one has no end, or when none does.
+/// End of the last play that moves the node; infinity if one has no end, or if none moves it.
 double path_end(const Path& path) {
   double last = -infinity;
   path.animation().for_each_play(path.clock(), path.node(),
@@ -63,7 +63,7 @@ double path_error(const StageState& state, const StagedBody& body) {
   return (state.world.motion(body.id).pose.position - wanted.pose.position).norm();
 }
 
-/// Whether the rule fires now, and through which trigger.
+/// Whether the rule fires now, and by which trigger.
 std::optional<Cause> fires(const StageState& state, ArmedRule& armed, double from) {
   const StagedBody& body = state.bodies[armed.body];
   const Rule& rule = *state.rules[armed.rule];
@@ -155,7 +155,7 @@ void fire_rules(StageState& state, double from, double step, std::vector<Happeni
   struct Due {
     double instant = 0;
     std::size_t body = 0;
-    std::size_t armed = no_body;  // none: what comes after another change
+    std::size_t armed = no_body;  // none: a later change of a rule
   };
   std::vector<Due> order;
   order.reserve(state.armed.size());

@@ -9,7 +9,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// Whether a clip that counts has an event of this name. @param body  when given, only plays that move its node count
+/// Whether a clip that counts has an event of this name. @param body  if given, only plays that move its node count
 bool has_event(const Animation& animation, const std::string& name, const StagedBody* body) {
   bool any = false;
   animation.for_each_play(
@@ -92,7 +92,7 @@ std::vector<UnfiredRule> unfired_rules(const StageState& state) {
       reason = std::string("the body was ") + owners[static_cast<std::size_t>(rule.to.owner())] +
                " all the time, which is what the rule makes it";
     } else {
-      // Of an `all`, what has come while the rule waited was not what it lacked.
+      // With `all`, triggers that came while the rule waited are not what it lacked.
       const bool some_lacked = rule.when.all && std::ranges::count(armed.latched, char{0}) > 0;
       for (std::size_t i = 0; i < rule.when.triggers.size(); ++i)
         if (!some_lacked || !armed.latched[i])

@@ -10,7 +10,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// Writes what is a function as values at many times.
+/// Writes functions as their values at many times.
 class Sampling {
  public:
   explicit Sampling(saving::ByteWriter& out) : visit_(out) {}

@@ -6,7 +6,7 @@
 
 namespace tweenfall::staging {
 
-/// A number by which two descriptions of a stage are told apart: of all that tells on how it runs.
+/// A number that tells two descriptions of a stage apart, from everything that affects how it runs.
 [[nodiscard]] std::uint64_t fingerprint(const StageDescription& description);
 
 }  // namespace tweenfall::staging

@@ -21,8 +21,8 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("a saved stage has a bad " + what);
 }
 
-/// What of a state does not follow from who is on the stage.
-/// @param visit  of what writes, or of what reads into a state with the same cast
+/// The part of a state that does not follow from who is on the stage.
+/// @param visit  of a writer, or of a reader into a state with the same cast
 template <class State, class Visit>
 void each_moving_field(State& state, const Visit& visit) {
   visit(state.time, state.steps, state.splits, state.jumped);
@@ -33,7 +33,7 @@ void each_moving_field(State& state, const Visit& visit) {
   for (auto& staged : state.particles) visit(staged);
 }
 
-/// Throws where a number is none.
+/// Throws for values that are not numbers.
 class Numbers : public saving::Teller<Numbers> {
  public:
   template <class T>
@@ -120,7 +120,7 @@ void check_happenings(const std::vector<StageEvent>& events, const std::vector<H
   for (const HandOff& handoff : handoffs) require(handoff.node < nodes, "hand-off: there is no such node");
 }
 
-/// Joints as they were saved; which of the world's each is.
+/// Joints as they were saved, matched with those of the world.
 std::shared_ptr<const StagedJoints> joints_of(const std::vector<StagedJoint>& list, const StageState& state) {
   auto joints = std::make_shared<StagedJoints>();
   for (const StagedJoint& joint : list) {
@@ -160,7 +160,7 @@ StageState cast_at(const StageState& initial, const std::vector<Command>& comman
 std::vector<std::byte> Timeline::save() const {
   const auto [from, to] = around();
   const bool between = from != to;
-  // What lies ahead of a state is found again from it.
+  // What lies ahead of a state is recomputed from it.
   const StageState& state = between ? from_ : to_;
   saving::ByteWriter out;
   const saving::Walk<saving::ByteWriter> visit(out);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The fields of what a stage is made of, each listed once, as those of a world in `saving/fields.h`.
+// The fields of everything in a stage, each listed once, as those of a world in `saving/fields.h`.
 
 #include "saving/bytes.h"
 #include "stage/stage_data.h"
@@ -325,7 +325,7 @@ void each_field(T& clock, const Visit& visit) {
   visit.places(clip);
 }
 
-/// What paths keep to themselves.
+/// The private fields of paths.
 struct PathFields {
   template <class T, class Visit>
   static void of_offset(T& offset, const Visit& visit) {
@@ -486,7 +486,7 @@ void each_field(T& staged, const Visit& visit) {
   if constexpr (!std::is_const_v<T>) staged.vehicle.restore(std::move(readings));
 }
 
-/// What particles keep to themselves.
+/// The private fields of particles.
 struct ParticleFields {
   template <class T, class Visit>
   static void of(T& p, const Visit& visit) {

@@ -4,7 +4,7 @@
 
 namespace tweenfall::staging {
 
-/// Of the world, and of what is on a stage beside it.
+/// Of the world, and of everything else on a stage.
 [[nodiscard]] std::uint64_t stage_hash(const StageState& state);
 
 }  // namespace tweenfall::staging

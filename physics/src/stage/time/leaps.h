@@ -1,6 +1,6 @@
 #pragma once
 
-// Where what is scripted leaps: a step that begins before such an instant must end there.
+// Where scripts jump: a step that starts before such an instant must end there.
 
 #include <memory>
 
@@ -9,7 +9,7 @@
 namespace tweenfall::staging {
 
 [[nodiscard]] std::shared_ptr<const Leaps> leaps_of(const StageDescription& description);
-/// The first leap in (from, to], no more than a step; infinity for none.
+/// The first jump in (from, to], which is at most a step long; infinity for none.
 [[nodiscard]] double next_leap(const StageState& state, double from, double to);
 
 }  // namespace tweenfall::staging

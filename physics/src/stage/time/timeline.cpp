@@ -41,7 +41,7 @@ void Timeline::next_piece() {
   try {
     take(to_);
   } catch (...) {
-    // As before the piece, and at its beginning: whoever goes on meets the same fault.
+    // As before the piece, at its beginning: going on meets the same fault.
     to_ = from_;
     now_ = std::max(now_, to_.time);
     happenings_.resize(of_piece_);
@@ -59,7 +59,7 @@ void Timeline::tell(bool aloud, double until) {
     const Happening happening = happenings_[told_++];
     now_ = std::max(now_, happening.time);
     scene.forget();
-    // Copies of the callbacks: they may put others in their place.
+    // Copies of the callbacks, as they may replace themselves.
     if (const auto* handoff = std::get_if<HandOff>(&happening.what)) {
       handoffs.push_back(*handoff);
       const auto callback = on_handoff;
@@ -83,7 +83,7 @@ void Timeline::run_to(double target, bool aloud) {
   now_ = std::max(now_, target);
 }
 
-/// Makes `to_` the state on which a change at `now` acts, its future forgotten.
+/// Makes `to_` the state on which a change at `now` acts, and forgets its future.
 void Timeline::reach_now() {
   const double end = static_cast<double>(to_.steps) * description.step;
   if (now_ >= to_.time || (to_.time == end && now_ >= end - sliver)) return;
@@ -98,7 +98,7 @@ void Timeline::reach_now() {
   const std::vector<Command> stop{{now_, change::None{}}};
   std::optional<StageState> unchanged;
   while (piece.time < now_) take(piece, stop, again, unchanged);
-  // What the piece has told stays told and is not told again.
+  // What the piece has reported is not reported again.
   for (std::size_t i = of_piece_; i < told_; ++i) {
     const auto* told = std::get_if<StageEvent>(&happenings_[i].what);
     const auto twin = std::ranges::find_if(again, [&](const Happening& other) {
@@ -114,7 +114,7 @@ void Timeline::reach_now() {
 
 void Timeline::command(Change change) {
   scene.forget();
-  // What is not there yet when the change turns out to be impossible comes as it would have.
+  // If the change turns out to be impossible, what is not reported yet comes as it would have.
   const auto untold = happenings_.begin() + static_cast<std::ptrdiff_t>(told_);
   const std::vector<Happening> coming(untold, happenings_.end());
   const bool ahead = now_ < to_.time;
@@ -134,7 +134,7 @@ void Timeline::command(Change change) {
     happenings_.insert(happenings_.end(), coming.begin(), coming.end());
     throw;
   }
-  // A change made in the past begins another future.
+  // A change made in the past starts another future.
   while (!commands_.empty() && commands_.back().time > to_.handled) commands_.pop_back();
   commands_.insert(std::ranges::upper_bound(commands_, now_, {}, &Command::time), std::move(command));
   to_.jumped = true;
@@ -144,7 +144,7 @@ void Timeline::command(Change change) {
     if (place - happenings_.begin() < static_cast<std::ptrdiff_t>(of_piece_)) ++of_piece_;
     happenings_.insert(place, std::move(happening));
   }
-  // A moment after the instant on which it acted, what is shown lies in the piece that begins there.
+  // A moment after the instant on which it acted, what is shown lies in the piece that starts there.
   if (!telling_) run_to(now_, true);
 }
 

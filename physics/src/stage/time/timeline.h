@@ -7,9 +7,9 @@
 namespace tweenfall::staging {
 
 /// The stage in time. What the caller reads lies between two states without an instant between them: the world is
-/// simulated to the first instant at or after `now`. A change by the caller takes that piece again, up to `now`, and
-/// acts on the state there; it is kept, so that going back finds it again. However many instants a step has, no more
-/// than two states are held.
+/// simulated to the first instant at or after `now`. A change by the caller repeats that piece, up to `now`, and
+/// acts on the state there; it is kept, so that going back finds it again. However many instants a step has, at most
+/// two states are held.
 class Timeline {
  public:
   explicit Timeline(StageDescription described);
@@ -17,10 +17,10 @@ class Timeline {
   /// @param aloud  whether callbacks are called
   void run_to(double target, bool aloud);
   void restart();
-  /// Makes a change at exactly `now`. When it throws, nothing has changed.
+  /// Makes a change at exactly `now`. If it throws, nothing has changed.
   void command(Change change);
 
-  /// Of the changes until `now`, those that are input.
+  /// The changes until `now` that are input.
   [[nodiscard]] std::vector<TimedInput> inputs() const;
 
   [[nodiscard]] std::vector<std::byte> save() const;
@@ -28,10 +28,10 @@ class Timeline {
   void load(std::span<const std::byte> saved);
 
   [[nodiscard]] double now() const noexcept { return now_; }
-  /// The two states between which `now` lies; twice the same where it lies at one.
+  /// The two states between which `now` lies; the same one twice if `now` is exactly there.
   [[nodiscard]] std::pair<const StageState*, const StageState*> around() const noexcept;
   [[nodiscard]] const StageState& current() const noexcept { return *around().first; }
-  /// At the end of the piece in which `now` lies.
+  /// The state at the end of the piece in which `now` lies.
   [[nodiscard]] const StageState& ahead() const noexcept { return to_; }
   /// Throws std::logic_error inside a callback: it cannot do `what`.
   void require_not_telling(const char* what) const;
@@ -41,8 +41,8 @@ class Timeline {
   std::vector<HandOff> handoffs;
   std::function<void(const StageEvent&)> on_event, on_contact;
   std::function<void(const HandOff&)> on_handoff;
-  state::LazilyMade<queries::Scene> scene;  ///< of the bodies at `now`, for questions
-  bool abandoned = false;                   ///< the stage is gone, from inside a callback: nothing more is told
+  state::LazilyMade<queries::Scene> scene;  ///< of the bodies at `now`, for queries
+  bool abandoned = false;                   ///< the stage was destroyed inside a callback: nothing more is reported
 
  private:
   void take(StageState& state);
@@ -58,9 +58,9 @@ class Timeline {
   StageState from_, to_;
   std::optional<StageState> arrived_;  ///< `to_` before the caller's changes there
   std::vector<Command> commands_;      ///< in order of time
-  std::vector<Happening> happenings_;  ///< not all told
-  std::size_t told_ = 0;               ///< how many of them have been
-  std::size_t of_piece_ = 0;           ///< the first of them that belongs to the current piece
+  std::vector<Happening> happenings_;  ///< not all reported yet
+  std::size_t told_ = 0;               ///< how many of them have been reported
+  std::size_t of_piece_ = 0;           ///< index of the first that belongs to the current piece
   double now_ = 0;
   bool telling_ = false;
 };
