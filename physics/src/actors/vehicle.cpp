@@ -74,7 +74,7 @@ Vehicle::Vehicle(VehicleSettings settings) : settings_(std::move(settings)) {
   using vehicles::require;
   require(std::abs(settings_.forward.norm() - 1) < 1e-9 && std::abs(settings_.up.norm() - 1) < 1e-9 &&
               std::abs(settings_.forward.dot(settings_.up)) < 1e-9,
-          "forward and up of a vehicle must be unit vectors across each other");
+          "forward and up of a vehicle must be perpendicular unit vectors");
   require(vehicles::is_place(settings_.gravity), "gravity of a vehicle must be finite and at most 1e30 m/s^2");
   require(!settings_.wheels.empty(), "a vehicle needs a wheel");
   for (const WheelSettings& wheel : settings_.wheels) {
@@ -102,7 +102,7 @@ void Vehicle::control(std::size_t wheel, const WheelControl& control) {
 }
 
 void Vehicle::restore(std::vector<WheelReading> readings) {
-  vehicles::require(readings.size() == readings_.size(), "a vehicle has as many readings as wheels");
+  vehicles::require(readings.size() == readings_.size(), "a vehicle needs one reading per wheel");
   for (const WheelReading& reading : readings)
     for (const double number : {reading.length, reading.spin, reading.angle, reading.load, reading.slip, reading.steer})
       vehicles::require(std::isfinite(number), "readings of a wheel must be finite");
@@ -237,8 +237,9 @@ void Vehicle::act(World& world, double dt) {
     reading.point = stand.point;
     reading.force = stand.load * stand.normal + tyre;
     if (!state::countable(reading.force))
-      throw NotFinite(settings_.chassis, world.time() + dt,
-                      "a wheel of it is pressed with " + number_text(stand.load) + " N; a body bears 1e30 N");
+      throw NotFinite(
+          settings_.chassis, world.time() + dt,
+          "one of its wheels is pressed with " + number_text(stand.load) + " N; a body bears at most 1e30 N");
     world.apply_force(settings_.chassis, reading.force, stand.point);
     if (!world.is_fixed(stand.ground)) world.apply_force(stand.ground, -reading.force, stand.point);
   }

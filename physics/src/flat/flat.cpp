@@ -61,7 +61,7 @@ void validate(const WorldSettings& settings) {
   if (settings.plane == WorldPlane::none) return;
   const std::string name = name_of(settings.plane);
   require(settings.gravity[Axes::of(settings.plane).normal] == 0,
-          "gravity must lie in the world's plane, " + name + ": across it, it must be 0");
+          "gravity must lie in the world's plane, " + name + ": perpendicular to it, it must be 0");
   require(settings.integrator == Integrator::exact_quadratic && settings.solver == ContactSolver{} &&
               settings.separation == Parting{} && settings.collision == Detection{} &&
               settings.broad_phase == PairSearch{},

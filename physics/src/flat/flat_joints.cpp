@@ -28,11 +28,11 @@ struct InPlane {
   void operator()(const FixedJoint&) const { require_upright("a weld"); }
   void operator()(const SliderJoint&) const {
     require_upright("a slider");
-    if (!lies_in(axes, settings.frame_a.rotation * Vec3(1, 0, 0))) refuse_joint("the axis of a slider lies in it");
+    if (!lies_in(axes, settings.frame_a.rotation * Vec3(1, 0, 0))) refuse_joint("the axis of a slider must lie in it");
   }
-  void operator()(const HingeJoint&) const { require_axes_upright("the axis of a hinge stands"); }
-  void operator()(const WheelJoint&) const { require_axes_upright("the axis of a wheel stands"); }
-  void operator()(const GearJoint&) const { require_axes_upright("the axes of a gear stand"); }
+  void operator()(const HingeJoint&) const { require_axes_upright("the axis of a hinge"); }
+  void operator()(const WheelJoint&) const { require_axes_upright("the axis of a wheel"); }
+  void operator()(const GearJoint&) const { require_axes_upright("the axes of a gear"); }
   void operator()(const PulleyJoint& pulley) const {
     if (!lies_in(axes, pulley.pulley_a) || !lies_in(axes, pulley.pulley_b)) refuse_joint("both pulleys must lie in it");
   }
@@ -40,12 +40,12 @@ struct InPlane {
   void operator()(const SpringJoint&) const {}
   template <class Kind>
   void operator()(const Kind&) const {
-    refuse_joint("joints are balls, hinges, sliders, welds, distances, springs, pulleys, gears and wheels; no others");
+    refuse_joint("joints can only be balls, hinges, sliders, welds, distances, springs, pulleys, gears and wheels");
   }
 
   void require_axes_upright(const std::string& what) const {
     for (const Pose* const frame : {&settings.frame_a, &settings.frame_b})
-      if (!turns_in(axes, frame->rotation * Vec3(1, 0, 0))) refuse_joint(what + " upright on it");
+      if (!turns_in(axes, frame->rotation * Vec3(1, 0, 0))) refuse_joint(what + " must be perpendicular to it");
   }
   void require_upright(const std::string& what) const {
     const Quat between = settings.frame_a.rotation * settings.frame_b.rotation.conjugate();

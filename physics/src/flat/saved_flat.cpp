@@ -51,7 +51,7 @@ void Flat::read(saving::ByteReader& bytes) {
     if (entry.id == BodyId{}) continue;
     bytes.require(world_.contains(entry.id), "the plane has no such body");
     owners_.resize(std::max<std::size_t>(owners_.size(), entry.id.index + std::size_t{1}), 0xffffffff);
-    bytes.require(owners_[entry.id.index] == 0xffffffff, "two bodies are one in the plane");
+    bytes.require(owners_[entry.id.index] == 0xffffffff, "two bodies share one in the plane");
     owners_[entry.id.index] = static_cast<std::uint32_t>(i);
   }
   bytes.number(count);
@@ -70,14 +70,14 @@ void Flat::read(saving::ByteReader& bytes) {
     bytes.require(link.id == JointId{} || world_.contains(link.id), "the plane has no such joint");
     if (link.id == JointId{}) continue;
     taken.resize(std::max<std::size_t>(taken.size(), link.id.index + std::size_t{1}), 0);
-    bytes.require(taken[link.id.index] == 0, "two joints are one in the plane");
+    bytes.require(taken[link.id.index] == 0, "two joints share one in the plane");
     taken[link.id.index] = 1;
   }
 }
 
 void Flat::check(const state::WorldState& world) {
   plane_ = world.settings.plane;
-  state::require(links_.size() <= world.joints.size(), "a saved world and its plane have not the same joints");
+  state::require(links_.size() <= world.joints.size(), "a saved world and its plane do not have the same joints");
   for (const state::Joint& joint : world.joints)
     if (joint.alive) require_joint(plane_, joint.settings);
   for (const soft::SoftBody& soft : world.softs) {
@@ -93,7 +93,7 @@ void Flat::check(const state::WorldState& world) {
   std::size_t known = 0;
   for (const Entry& entry : entries_) known += entry.id == BodyId{} ? 0 : 1;
   state::require(known == world_.bodies().size() && entries_.size() <= world.bodies.size(),
-                 "a saved world and its plane have not the same bodies");
+                 "a saved world and its plane do not have the same bodies");
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     const state::Body& body = world.bodies[i];
     if (!body.alive) continue;

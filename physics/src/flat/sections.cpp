@@ -65,8 +65,8 @@ struct Cut {
 
   [[noreturn]] void fail(const std::string& what) const {
     throw std::invalid_argument(what +
-                                " cannot be cut by the world's plane: its axes must lie in the plane or stand "
-                                "upright on it, and its center in it");
+                                " cannot be cut by the world's plane: its axes must lie in the plane or be "
+                                "perpendicular to it, and its center must lie in it");
   }
   /// Which of the shape's own axes is perpendicular to the plane; -1: none.
   [[nodiscard]] int upright() const {

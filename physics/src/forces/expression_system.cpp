@@ -43,7 +43,7 @@ void validate(const ExpressionSystem& system) {
           "step and duration of a system must be positive and finite");
   require(
       forces::steps_of(system) * static_cast<double>(count) <= forces::most_on_the_way,
-      "a system may take 100000 numbers for its way, steps times variables; take longer steps or a shorter duration");
+      "the path of a system may have 100000 numbers, steps times variables; take longer steps or a shorter duration");
 }
 
 FirstOrder rates_of(const ExpressionSystem& system) {

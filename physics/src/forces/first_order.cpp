@@ -35,7 +35,7 @@ FirstOrderStepper::FirstOrderStepper(FirstOrder rates, std::vector<double> state
   require_system(std::isfinite(time_), "the time is not finite");
   require_system(forces::exists(integrator_), "there is no such integrator");
   require_system(!halves(integrator_) || state_.size() % 2 == 0,
-                 "this integrator takes half of the state for places and half for speeds, and the state is odd");
+                 "this integrator needs positions and as many velocities, but the state has an odd length");
   places_.assign(state_.size(), 0);
   std::fill_n(places_.begin(), state_.size() / 2, std::uint8_t{1});
   there_.resize(state_.size());

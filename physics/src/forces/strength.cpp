@@ -64,7 +64,7 @@ Strength::Strength(const Curve<double>& keys) : curve_(keys) {
     *this = Strength(keys.value(keys.start()));
     return;
   }
-  state::require(!keys.spans().empty(), "a strength is told by keys, not by a curve's formula; give it as a text");
+  state::require(!keys.spans().empty(), "a strength takes keys, not the formula of a curve; give the formula as text");
   const double most = forces::greatest(keys);
   state::require(state::countable(most), "a strength must be finite and at most 1e30");
   if (forces::has_eases(keys.spans())) {

@@ -32,7 +32,7 @@ void require_finite(const Vec3& value, const std::string& name) {
 void require_order(const Limits& limits, const std::string& name) {
   require(!std::isnan(limits.low) && !std::isnan(limits.high) && limits.low < HUGE_VAL && limits.high > -HUGE_VAL,
           name + " must be numbers, but are " + number_text(limits.low) + " and " + number_text(limits.high));
-  require(limits.low <= limits.high, name + " must stand in order, but the low one is " + number_text(limits.low) +
+  require(limits.low <= limits.high, name + " must be in order, but the low one is " + number_text(limits.low) +
                                          " and the high one " + number_text(limits.high));
   require_amount(limits.hz, "frequency of " + name);
   require_amount(limits.zeta, "damping ratio of " + name);

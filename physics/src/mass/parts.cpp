@@ -20,7 +20,7 @@ void validate(const MassProperties& properties) {
   require(inertia.allFinite(), "inertia must be finite");
   const double most = inertia.cwiseAbs().maxCoeff(), rounding = 1e-9 * most;
   require((inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= rounding,
-          "inertia must be symmetric: what is right of the diagonal stands left of it, too");
+          "inertia must be symmetric: elements right of the diagonal must equal those left of it");
   if (!(most > 0)) return;  // a point
   const Vec3 moments = symmetric_eigen(Mat3(inertia / most)).values * most;
   require(moments[2] >= -rounding,
@@ -31,7 +31,7 @@ void validate(const MassProperties& properties) {
 }
 
 MassProperties mass_properties(std::span<const MassProperties> parts) {
-  if (parts.empty()) throw std::invalid_argument("what is put together needs at least one part");
+  if (parts.empty()) throw std::invalid_argument("combined mass properties need at least one part");
   MassProperties whole;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     try {

@@ -50,7 +50,7 @@ WeighedProperties weigh_pieces(const Cut& cut, const Density& density, const Qua
   MassProperties& of = result.properties;
   of.mass = m[0];
   if (!(of.mass > 0) || !std::isfinite(of.mass))
-    throw std::invalid_argument("a density must make some mass, but this one makes " + number_text(of.mass) + " kg");
+    throw std::invalid_argument("a density must give some mass, but this one gives " + number_text(of.mass) + " kg");
   const Vec3 offset = Vec3(m[1], m[2], m[3]) / of.mass;
   Mat3 second;
   second << m[4], m[7], m[9], m[7], m[5], m[8], m[9], m[8], m[6];

@@ -139,7 +139,7 @@ void World::Implementation::settle_in() {
   };
   inner::demand_settings(settings);
   expect(time >= 0 && last_h >= 0 && passed_over >= 0 && inner::all_count({time, last_h, passed_over}),
-         "its times cannot be");
+         "its times are impossible");
   expect(bodies.size() == makeups.size(), "its lists differ in length");
   expect(inner::are_unused(unused, bodies) && inner::are_unused(unused_joints, joints), "its free places are taken");
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -192,14 +192,14 @@ void World::Implementation::settle_in() {
   expect(inner::in_order(meetings), "its pairs are not in order");
   for (const inner::Meeting& meeting : meetings) {
     expect(meeting.b < bodies.size() && meeting.a < meeting.b && bodies[meeting.a].alive && bodies[meeting.b].alive,
-           "a pair is of no bodies");
+           "the bodies of a pair do not exist");
     expect(meeting.part_a < makeups[meeting.a].plates.size() && meeting.part_b < makeups[meeting.b].plates.size(),
-           "a pair is of no parts");
+           "the parts of a pair do not exist");
     expect(meeting.sensing || bodies[meeting.a].movable || bodies[meeting.b].movable, "a pair never moves");
     expect(meeting.count >= 0 && meeting.count <= 2, "a contact has 0 to 2 points");
     expect(
         meeting.friction >= 0 && meeting.restitution >= 0 && meeting.restitution <= 1 && meeting.rolling_friction >= 0,
-        "a surface cannot be");
+        "a surface is impossible");
     expect(inner::all_count({meeting.friction, meeting.rolling_friction, meeting.rolling, meeting.apart.x(),
                              meeting.apart.y(), meeting.relative.cos, meeting.relative.sin, meeting.normal.x(),
                              meeting.normal.y()}),
@@ -211,7 +211,7 @@ void World::Implementation::settle_in() {
   }
   for (const auto& [first, second] : ignored)
     expect(first < second && second < bodies.size() && bodies[first].alive && bodies[second].alive,
-           "bodies that are not there ignore each other");
+           "bodies that do not exist ignore each other");
   expect(std::is_sorted(ignored.begin(), ignored.end()), "its ignored pairs are not in order");
   keep_apart();
   near.restore(bodies, makeups);
@@ -234,7 +234,7 @@ void World::load(std::span<const std::byte> saved) {
   saving::ByteReader reader(saving::opened(inner::envelope, saved), inner::envelope.kind);
   auto loaded = std::make_unique<Implementation>();
   inner::walk_world(reader, *loaded);
-  reader.require(reader.at_end(), "more follows than a plane has");
+  reader.require(reader.at_end(), "there is more data than a plane");
   loaded->settle_in();
   implementation_ = std::move(loaded);
 }

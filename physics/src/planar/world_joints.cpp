@@ -39,8 +39,8 @@ void check(const Pulley& pulley) {
 }
 void check(const Gear& gear) {
   joints::validate(GearJoint{gear.ratio});
-  demand_number(gear.turned_a, "what a wheel has turned");
-  demand_number(gear.turned_b, "what a wheel has turned");
+  demand_number(gear.turned_a, "the angle that a wheel has turned");
+  demand_number(gear.turned_b, "the angle that a wheel has turned");
 }
 void check(const Wheel& wheel) {
   joints::validate(WheelJoint{wheel.hz, wheel.zeta, wheel.suspension, wheel.motor});

@@ -27,14 +27,14 @@ void require_place(const Pose& pose) {
 
 void require_no_plane(const Shape& shape) {
   if (std::holds_alternative<Plane>(shape.solid))
-    throw std::invalid_argument("a plane has no end: ask with a shape that has one");
+    throw std::invalid_argument("a plane is infinite: ask with a finite shape");
 }
 
 void require_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   require_place(pose_a);
   require_place(pose_b);
   if (std::holds_alternative<Plane>(a.solid) && std::holds_alternative<Plane>(b.solid))
-    throw std::invalid_argument("two planes meet without end: one of the shapes must have one");
+    throw std::invalid_argument("two planes meet in infinitely many points: one of the shapes must be finite");
 }
 
 }  // namespace tweenfall::queries

@@ -49,7 +49,7 @@ void ByteWriter::hull(const ConvexHull& hull) {
 
 void ByteWriter::field(const Field&) {
   throw std::invalid_argument(
-      "a world with a field cannot be saved, for a field is a function: take it away with remove_force, and add it "
+      "a world with a field cannot be saved, since a field is a function: remove it with remove_force, and add it "
       "again after loading");
 }
 

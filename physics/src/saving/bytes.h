@@ -74,7 +74,7 @@ class ByteReader {
       word = static_cast<Word<T>>(word | static_cast<Word<T>>(bytes_[place_ + i]) << (8 * i));
     if constexpr (std::is_same_v<T, bool>) require(word <= 1, "this should be 0 or 1");
     if constexpr (std::is_enum_v<T>)
-      if constexpr (last_of<T> >= 0) require(word <= static_cast<Word<T>>(last_of<T>), "there is no such word");
+      if constexpr (last_of<T> >= 0) require(word <= static_cast<Word<T>>(last_of<T>), "there is no such value");
     place_ += sizeof(word);
     if constexpr (std::is_floating_point_v<T>)
       value = std::bit_cast<T>(word);

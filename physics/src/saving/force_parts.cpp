@@ -9,7 +9,7 @@ namespace tweenfall::saving {
 namespace {
 
 OutsideRule<double> rule_of(const StrengthParts::Beyond& beyond) {
-  state::require(beyond.rule <= Outside::pingpong, "there is no such rule for what is beyond the keys");
+  state::require(beyond.rule <= Outside::pingpong, "there is no such rule for times beyond the keys");
   return {beyond.rule, beyond.slope, beyond.plays};
 }
 
@@ -38,7 +38,7 @@ Strength made_of(const StrengthParts& parts) {
   if (!parts.text.empty()) return Strength::formula(parts.text);
   if (parts.spans.empty()) return {parts.factor};
   for (const Span<double>& span : parts.spans)
-    state::require(span.degree >= 0 && span.degree <= max_degree, "a strength has a span of no degree");
+    state::require(span.degree >= 0 && span.degree <= max_degree, "a strength has a span of an impossible degree");
   const Curve<double> curve(parts.spans);
   return {curve.with_outside(rule_of(parts.before), rule_of(parts.after))};
 }

@@ -212,7 +212,7 @@ void check_pairs(const WorldState& world) {
     at("contact " + std::to_string(number++), [&] {
       const WholeContact contact = world.memories.whole(place);
       require_pair({contact.memory.a, contact.memory.b, contact.rare.part_a, contact.rare.part_b});
-      state::require(contact.memory.b < world.stands.size(), "nothing tells where its bodies stood");
+      state::require(contact.memory.b < world.stands.size(), "the positions of its bodies are missing");
       check(contact);
     });
   first = true;
@@ -231,7 +231,7 @@ void check(soft::SoftBody& body, const WorldState& world) {
   const std::size_t nodes = body.made->positions.size();
   state::require(body.positions.size() == nodes && body.velocities.size() == nodes &&
                      body.torn.size() == body.made->edges.size() && body.made->pins.empty() && body.made->sub_step,
-                 "its nodes and edges are not as many as they were");
+                 "the numbers of its nodes and edges have changed");
   for (std::size_t i = 0; i < nodes; ++i) {
     state::require_finite(body.positions[i], "place of a node");
     state::require_finite(body.velocities[i], "velocity of a node");
@@ -278,7 +278,7 @@ void check(WorldState& world) {
       state::require(entry.number >= least && entry.number < world.next_force, "numbers of forces must come in order");
       least = entry.number + 1;
     });
-  state::require(world.stands.size() <= world.bodies.size(), "a saved world tells of bodies that there are not");
+  state::require(world.stands.size() <= world.bodies.size(), "a saved world lists bodies that do not exist");
   for (std::size_t i = 0; i < world.stands.size(); ++i)
     at("place of body " + std::to_string(i), [&] { check(world.stands[i]); });
   check_pairs(world);
@@ -306,7 +306,7 @@ void World::load(std::span<const std::byte> saved) {
   state::WorldState loaded;
   walk(reader, loaded);
   if (loaded.settings.plane != WorldPlane::none) loaded.flat.own().read(reader);
-  reader.require(reader.at_end(), "there is more than a world");
+  reader.require(reader.at_end(), "there is more data than a world");
   saving::check(loaded);
   if (loaded.flat.has_value()) loaded.flat.own().check(loaded);
   loaded.settings.threads = before.settings.threads;

@@ -16,7 +16,7 @@ namespace {
 void require_part(const Shape& part, std::size_t index) {
   const std::string which = "part " + std::to_string(index) + " of a compound: ";
   if (std::holds_alternative<Plane>(part.solid))
-    throw std::invalid_argument(which + "a plane has no end; give it to a fixed body of its own");
+    throw std::invalid_argument(which + "a plane is infinite; give it to a fixed body of its own");
   if (std::holds_alternative<TriangleMesh>(part.solid) || std::holds_alternative<HeightField>(part.solid))
     throw std::invalid_argument(which + kind_name(part.solid) + " has no volume; give it to a fixed body of its own");
   if (std::holds_alternative<Compound>(part.solid))

@@ -32,7 +32,7 @@ void require_two_balls(const TaperedCapsule& capsule) {
   if (std::abs(capsule.bottom_radius - capsule.top_radius) < 2 * capsule.half_height) return;
   throw std::invalid_argument(
       std::string("the ") + (bottom ? "bottom" : "top") + " ball of a tapered capsule, of radius " +
-      number_text(bottom ? capsule.bottom_radius : capsule.top_radius) + ", holds its other ball, of radius " +
+      number_text(bottom ? capsule.bottom_radius : capsule.top_radius) + ", contains its other ball, of radius " +
       number_text(bottom ? capsule.top_radius : capsule.bottom_radius) + " and " +
       number_text(2 * capsule.half_height) + " m away; set them farther apart, or make it a sphere");
 }

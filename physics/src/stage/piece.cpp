@@ -88,7 +88,7 @@ const Motion& bearable(const StageState& state, const StagedBody& body, const Mo
   const auto require = [&](const Vec3& value, const char* does, const char* unit) {
     if (state::countable(value)) return;
     const std::string cause = std::string(leader) + " " + does + " " + number_text(value.cwiseAbs().maxCoeff()) + unit +
-                              "; a body bears 1e30" + unit;
+                              "; a body bears at most 1e30" + unit;
     throw NodeNotFinite(body.node, (*state.nodes)[body.node].name, NotFinite(body.id, state.time, cause));
   };
   // Excessive speeds first: they are the cause of an excessive position.

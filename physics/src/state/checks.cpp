@@ -82,7 +82,7 @@ void validate(const Drive& drive) {
   require(drive.max_torque >= 0,
           "greatest torque of a drive must not be negative, but is " + number_text(drive.max_torque));
   require(drive.gravity_compensation >= 0 && drive.gravity_compensation <= 1,
-          "of the weight a drive bears 0 to 1, but this one shall bear " + number_text(drive.gravity_compensation));
+          "gravity compensation of a drive must lie in 0 to 1, but is " + number_text(drive.gravity_compensation));
   require(drive.frame >= Drive::Frame::world && drive.frame <= Drive::Frame::anchor,
           "frame of a drive must be the world, the parent or the anchor");
 }
@@ -111,9 +111,9 @@ void validate(const WorldSettings& settings) {
           "push-out speed must not be negative, but is " + number_text(settings.push_out_speed));
   require(forces::exists(settings.integrator), "there is no such integrator");
   require(settings.solver <= ContactSolver::lcp, "there is no such solver");
-  require(settings.separation <= Parting::closest_point, "there is no such way to take overlap apart");
-  require(settings.collision <= Detection::time_of_impact, "there is no such way to find that bodies meet");
-  require(settings.broad_phase <= PairSearch::bvh, "there is no such way to find pairs");
+  require(settings.separation <= Parting::closest_point, "there is no such separation");
+  require(settings.collision <= Detection::time_of_impact, "there is no such collision detection");
+  require(settings.broad_phase <= PairSearch::bvh, "there is no such broad phase");
   flat::validate(settings);
 }
 

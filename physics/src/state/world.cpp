@@ -444,7 +444,7 @@ void World::step(double dt) {
 
 void World::step(double dt, double whole) {
   if (!(dt > 0 && std::isfinite(dt)) || !std::isfinite(whole))
-    throw std::invalid_argument("a part of a step must be positive, and all of it finite, but it is " +
+    throw std::invalid_argument("a part of a step must be positive, and the whole step finite, but this is " +
                                 number_text(dt) + " s of " + number_text(whole) + " s");
   // A step that only rounding made shorter is a whole one.
   constexpr double rounding = 1e-6;

@@ -291,7 +291,7 @@ TEST_CASE("what a joint cannot be is refused with its reason") {
   CHECK_THROWS_AS(world.add_joint({.a = body}), std::invalid_argument);
   CHECK_THROWS_AS(world.add_joint({.a = floor, .b = body}), std::invalid_argument);
   CHECK_THROWS_WITH_AS(world.add_joint(with(HingeJoint{.limits = Limits{1, -1}})),
-                       "limits of a hinge must stand in order, but the low one is 1 and the high one -1",
+                       "limits of a hinge must be in order, but the low one is 1 and the high one -1",
                        std::invalid_argument);
   CHECK_THROWS_AS(world.add_joint(with(HingeJoint{.limits = Limits{NAN, 1}})), std::invalid_argument);
   CHECK_THROWS_AS(world.add_joint(with(HingeJoint{.motor = Motor{.speed = HUGE_VAL}})), std::invalid_argument);

@@ -139,7 +139,7 @@ TEST_CASE("densities that cannot be are refused with the place, and rough ones e
   CHECK_THROWS_WITH((void)weigh(Shape{Box{}}, of([](const Vec3&) { return std::numeric_limits<double>::quiet_NaN(); })),
                     doctest::Contains("but is nan kg/m^3 at ("));
   CHECK_THROWS_WITH((void)weigh(Shape{Box{}}, of([](const Vec3&) { return 0.0; })),
-                    "a density must make some mass, but this one makes 0 kg");
+                    "a density must give some mass, but this one gives 0 kg");
   CHECK_THROWS_WITH((void)weigh(Shape{Plane{}}, Density(1)),
                     "a plane has no mass: only fixed and keyed bodies can be of this shape");
   CHECK_THROWS_AS((void)weigh(Shape{Plane{}}, of([](const Vec3&) { return 1.0; })), std::invalid_argument);

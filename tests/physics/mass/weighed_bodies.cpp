@@ -80,7 +80,7 @@ TEST_CASE("a stage hands mass properties on, keeps them when it is saved, and no
   for (Stage* each : {&stage, &loaded}) each->advance(0.2);
   CHECK(loaded.state_hash() == stage.state_hash());
   described.nodes[0].rest.scale = {2, 2, 2};
-  CHECK_THROWS_WITH(Stage{described}, doctest::Contains("told for a node of scale 1"));
+  CHECK_THROWS_WITH(Stage{described}, doctest::Contains("need a node of scale 1"));
 }
 
 TEST_CASE("mass properties that no body can have are refused") {

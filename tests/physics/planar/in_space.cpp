@@ -164,17 +164,16 @@ TEST_CASE("what does not lie in a world's plane is refused in words") {
   const auto refused = [&](const JointSettings& joint, const char* words) {
     CHECK_THROWS_WITH_AS(world.add_joint(joint), Contains(words), std::invalid_argument);
   };
-  refused(
-      {.a = a, .b = b, .kind = UniversalJoint{}},
-      "in a plane joints are balls, hinges, sliders, welds, distances, springs, pulleys, gears and wheels; no others");
-  refused({.a = a, .b = b, .kind = WheelJoint{}}, "in a plane the axis of a wheel stands upright on it");
-  refused({.a = a, .b = b, .kind = GearJoint{}}, "in a plane the axes of a gear stand upright on it");
+  refused({.a = a, .b = b, .kind = UniversalJoint{}},
+          "in a plane joints can only be balls, hinges, sliders, welds, distances, springs, pulleys, gears and wheels");
+  refused({.a = a, .b = b, .kind = WheelJoint{}}, "in a plane the axis of a wheel must be perpendicular to it");
+  refused({.a = a, .b = b, .kind = GearJoint{}}, "in a plane the axes of a gear must be perpendicular to it");
   refused({.a = a, .b = b, .kind = PulleyJoint{.pulley_b = Vec3(0, 1, 1)}}, "in a plane both pulleys must lie in it");
   const Quat upright(std::sqrt(0.5), 0, -std::sqrt(0.5), 0);
   refused({.a = a, .b = b, .frame_a = {.rotation = upright}, .frame_b = {.rotation = upright}, .kind = SliderJoint{}},
-          "in a plane the axis of a slider lies in it");
+          "in a plane the axis of a slider must lie in it");
   refused({.a = a, .b = b, .frame_a = {.rotation = upright}, .kind = SliderJoint{}}, "a slider must not tilt");
-  refused({.a = a, .b = b, .kind = HingeJoint{}}, "in a plane the axis of a hinge stands upright on it");
+  refused({.a = a, .b = b, .kind = HingeJoint{}}, "in a plane the axis of a hinge must be perpendicular to it");
   refused({.a = a, .b = b, .frame_a = {.position = Vec3(0, 0, 1)}}, "in a plane the points of a joint must lie in it");
   refused({.a = a, .b = b, .frame_b = {.rotation = Quat(0.8, 0.6, 0, 0)}, .kind = FixedJoint{}}, "must not tilt");
 }

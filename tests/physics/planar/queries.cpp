@@ -234,9 +234,9 @@ TEST_CASE("in a plane questions with numbers that cannot be are refused in words
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS((void)planar::cast_ray(world, Vec2(0, 0), Vec2(0, 1), -1), Contains("must not be negative"),
                        std::invalid_argument);
-  CHECK_THROWS_WITH_AS((void)planar::distance(half, {}, half, {}), Contains("a half-plane has no end"),
+  CHECK_THROWS_WITH_AS((void)planar::distance(half, {}, half, {}), Contains("a half-plane is infinite"),
                        std::invalid_argument);
-  CHECK_THROWS_WITH_AS((void)planar::overlapping(world, half, {}), Contains("a half-plane has no end"),
+  CHECK_THROWS_WITH_AS((void)planar::overlapping(world, half, {}), Contains("a half-plane is infinite"),
                        std::invalid_argument);
   CHECK_THROWS_AS((void)planar::cast_shape(circle, {}, Vec2(INFINITY, 0), circle, {}), std::invalid_argument);
   CHECK_THROWS_AS((void)planar::closest_point({planar::Circle{-1}}, {}, Vec2(0, 0)), std::invalid_argument);

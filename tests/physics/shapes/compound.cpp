@@ -60,7 +60,7 @@ TEST_CASE("a box in two pieces weighs and turns as the whole one, wherever they 
 TEST_CASE("compounds that cannot be are refused with the part and words") {
   CHECK_THROWS_WITH(Compound(std::vector<Shape>{}), "a compound needs at least one part");
   CHECK_THROWS_WITH(Compound(std::vector<Shape>{{Sphere{1}}, {Plane{}}}),
-                    "part 1 of a compound: a plane has no end; give it to a fixed body of its own");
+                    "part 1 of a compound: a plane is infinite; give it to a fixed body of its own");
   CHECK_THROWS_WITH(Compound(std::vector<Shape>{{Compound(std::vector<Shape>{{Sphere{1}}})}}),
                     "part 0 of a compound: it is a compound itself; put its parts here, at their places");
   CHECK_THROWS_WITH(Compound(std::vector<Shape>{{Sphere{-1}}}),

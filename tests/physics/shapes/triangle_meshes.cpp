@@ -12,7 +12,7 @@ TEST_CASE("a mesh or height field that cannot be is refused with words") {
   mesh.triangles = {0, 2, 3};
   CHECK_THROWS_WITH(TriangleMesh{mesh}, "a triangle mesh has a triangle, number 0, with vertex 3, but there are 3");
   mesh.triangles = {0, 2};
-  CHECK_THROWS_WITH(TriangleMesh{mesh}, "a triangle mesh has 2 corners, which are not three for each triangle");
+  CHECK_THROWS_WITH(TriangleMesh{mesh}, "a triangle mesh has 2 corners, which is not three per triangle");
   mesh.triangles = {0, 2, 2};
   CHECK_THROWS_WITH(TriangleMesh{mesh}, "a triangle mesh needs a triangle with an area; all of these 1 have none");
   mesh.triangles = {0, 2, 1, 0, 1, 1};

@@ -125,7 +125,7 @@ TEST_CASE("sizes of turned solids that cannot be are refused with words") {
   CHECK_THROWS_WITH(validate(Cone{1, -2}), "half height of a cone must be positive and finite, but is -2");
   CHECK_THROWS_WITH(
       validate(TaperedCapsule{0.5, 0.25, 0.125}),
-      "the bottom ball of a tapered capsule, of radius 0.5, holds its other ball, of radius 0.25 and 0.25 "
+      "the bottom ball of a tapered capsule, of radius 0.5, contains its other ball, of radius 0.25 and 0.25 "
       "m away; set them farther apart, or make it a sphere");
   CHECK_NOTHROW(validate(TaperedCapsule{0.5, 0.25, 0.126}));
   CHECK_NOTHROW(validate(TaperedCapsule{0.25, 0.25, 1e-9}));

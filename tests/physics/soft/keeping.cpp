@@ -136,7 +136,7 @@ TEST_CASE("what makes no soft body is refused in words") {
   bad = line;
   bad.edges[0].stiffness = endless;
   bad.solver = SoftSolver::springs;
-  refused(bad, "only the solver of positions");
+  refused(bad, "only the positions solver");
   bad = line;
   bad.edges[0].stiffness = endless;
   bad.edges[0].tear = 0.1;

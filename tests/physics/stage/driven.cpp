@@ -106,7 +106,7 @@ TEST_CASE("a vehicle that is not there and numbers that are none are refused, an
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(stage.control("car", {.throttle = -std::numeric_limits<double>::infinity()}),
                        "throttle of a vehicle must be finite", std::invalid_argument);
-  CHECK_THROWS_WITH_AS(stage.control("car", {}), doctest::Contains("must be told"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(stage.control("car", {}), doctest::Contains("needs a throttle"), std::invalid_argument);
   CHECK(stage.state_hash() == before);
   CHECK(stage.inputs().empty());
 }

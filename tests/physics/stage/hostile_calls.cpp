@@ -113,9 +113,9 @@ TEST_CASE("a rule to a drive or a velocity that cannot be is refused when it is 
   refuse({.to = {.hz = 5, .zeta = -1}}, "damping ratio of a drive");
   refuse({.to = {.hz = -5}}, "frequency of a drive");
   refuse({.to = {.hz = 5, .max_force = none}}, "greatest force of a drive");
-  refuse({.to = {.hz = 5, .gravity_compensation = 2}}, "of the weight a drive bears 0 to 1");
-  refuse({.take_over = {.scale = none}}, "what scales a velocity");
-  refuse({.take_over = {.add = {.linear = Vec3(0, none, 0)}}}, "what scales a velocity");
+  refuse({.to = {.hz = 5, .gravity_compensation = 2}}, "gravity compensation of a drive must lie in 0 to 1");
+  refuse({.take_over = {.scale = none}}, "the scale of a velocity");
+  refuse({.take_over = {.add = {.linear = Vec3(0, none, 0)}}}, "the scale of a velocity");
   stage.advance(0.3);
 }
 

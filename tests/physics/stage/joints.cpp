@@ -241,7 +241,7 @@ TEST_CASE("joints that hold nothing together are refused, each by its number and
             "3 the joint \"j3\": there is no node number 17 to hold",
             "4 the joint \"j4\": its second end needs a body: only the first may be the world",
             "5 the joint \"string\": another joint has this name",
-            "6 the joint \"j6\": limits of a hinge must stand in order, but the low one is 1 and the high one -1",
+            "6 the joint \"j6\": limits of a hinge must be in order, but the low one is 1 and the high one -1",
             "7 the joint \"j7\": the time until which it holds must be a number"});
   CHECK_THROWS_AS(Stage{stage}, std::invalid_argument);
 }

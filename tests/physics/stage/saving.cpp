@@ -234,8 +234,7 @@ TEST_CASE("bytes of another description, of a world, of nothing, or damaged ones
   stage.advance_to(0.4);
   const std::vector<std::byte> saved = stage.save();
   Stage other(busy(1.0 / 120));
-  CHECK_THROWS_WITH_AS(other.load(saved),
-                       "this saved stage is of another description than the one that it would go on with",
+  CHECK_THROWS_WITH_AS(other.load(saved), "this saved stage has another description than the stage that would load it",
                        std::invalid_argument);
   StageDescription moved = busy();
   moved.clips[0].tracks[0].curve = Curve<Vec3>(Vec3(0, 3, 1e-9));

@@ -144,7 +144,7 @@ TEST_CASE("a world with a field, or with a body that is not finite, says why it 
   const std::size_t field =
       world.add_force(Field([](double, const Vec3&, const Vec3&, double) { return Vec3(0, 0, 0); }));
   CHECK_THROWS_WITH_AS((void)world.save(),
-                       "a world with a field cannot be saved, for a field is a function: take it away with "
+                       "a world with a field cannot be saved, since a field is a function: remove it with "
                        "remove_force, and add it again after loading",
                        std::invalid_argument);
   world.remove_force(field);
@@ -185,7 +185,7 @@ TEST_CASE("bytes that are no saved world are refused in words, and change nothin
   bytes.push_back(std::byte{0});
   seal(bytes);
   refused(bytes, "a saved world is wrong at byte " + std::to_string(good.size() - header) +
-                     " of its contents: there is more than a world");
+                     " of its contents: there is more data than a world");
   bytes.resize(good.size() - 5);
   seal(bytes);
   CHECK_THROWS_AS(world.load(bytes), std::invalid_argument);

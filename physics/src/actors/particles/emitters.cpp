@@ -92,7 +92,7 @@ Vec3 in_cone(const Vec3& along, double half_angle, double u, double turn) {
 
 void require_rates(const Range& rates) {
   state::require(rates.low >= 0, "the rate of an emitter must never be negative");
-  state::require(rates.high <= 1e9, "an emitter lets at most 1e9 particles go in a second");
+  state::require(rates.high <= 1e9, "an emitter releases at most 1e9 particles per second");
 }
 
 /// Takes the rate's next stretch: a formula has no ends, but its integral needs some.
@@ -121,7 +121,8 @@ void go_on(Source& source, double from) {
 void validate(const Emitter& emitter) {
   state::require(std::isfinite(emitter.start) && emitter.start >= 0 && emitter.end >= emitter.start,
                  "an emitter must start at 0 s or later, and end after that");
-  state::require(state::countable(emitter.inherit), "share of its velocity that an emitter gives must be finite");
+  state::require(state::countable(emitter.inherit),
+                 "the share of its velocity that an emitter passes on must be finite");
   state::require(emitter.spread >= 0 && emitter.spread <= std::numbers::pi, "spread of an emitter must lie in 0 to pi");
   state::require(emitter.speed_spread >= 0 && emitter.speed_spread <= 1, "spread of speeds must lie in 0 to 1");
   state::require_amount(emitter.size, "size of an emitter");

@@ -15,7 +15,7 @@ namespace {
 
 void validate(const ParticleSettings& settings) {
   state::require_finite(settings.gravity, "gravity");
-  state::require(integrates(settings.integrator), "particles know no implicit integrator; choose another");
+  state::require(integrates(settings.integrator), "particles cannot use an implicit integrator; choose another");
   state::require(settings.mass >= state::smallest && settings.mass <= state::largest,
                  "mass of a particle must lie in 1e-30 kg to 1e30 kg");
   state::require_amount(settings.radius, "radius of a particle");
@@ -35,7 +35,7 @@ Particles::Particles(const ParticleSettings& settings) : settings_(settings) {
 void Particles::add_force(const Force& force, const Strength& strength) {
   state::validate(force);
   state::require(particles::acts_on_particles(force),
-                 "on particles act drag, winds, vortices, formulas, fields, and attractors of the world");
+                 "only drag, winds, vortices, formulas, fields, and attractors of the world act on particles");
   forces_.push_back({force, strength});
 }
 

@@ -24,8 +24,10 @@ std::string numbered(const char* what, std::size_t index) {
 void require_stiffness(double stiffness, const std::string& whose, SoftSolver solver) {
   require(stiffness > 0, whose + " must have a stiffness above 0, but has " + number_text(stiffness));
   if (std::isinf(stiffness))
-    require(solver == SoftSolver::positions,
-            whose + " is of infinite stiffness, which only the solver of positions knows: give it one for springs");
+    require(
+        solver == SoftSolver::positions,
+        whose +
+            " has an infinite stiffness, which only the positions solver supports: give it a finite one for springs");
   else
     require(state::countable(stiffness), whose + " must have a stiffness of at most 1e30");
 }
@@ -33,7 +35,7 @@ void require_stiffness(double stiffness, const std::string& whose, SoftSolver so
 void require_tear(double tear, double stiffness, const std::string& whose) {
   require(tear > 0, whose + " must tear at a strain above 0, not " + number_text(tear));
   require(std::isinf(tear) || !std::isinf(stiffness), whose +
-                                                          " never stretches, so that no strain tears it: give it a "
+                                                          " never stretches, so no strain can tear it: give it a "
                                                           "stiffness");
 }
 
@@ -49,8 +51,8 @@ void require_nodes(const std::array<std::uint32_t, count>& nodes, std::size_t si
 void check_nodes(const SoftSettings& settings) {
   const std::size_t size = settings.positions.size();
   require(size >= 1, "a soft body needs nodes");
-  require(size >= 2, "a soft body needs at least two nodes; of one alone a rigid body or a particle is made");
-  require(size <= most_nodes, "a soft body of " + std::to_string(size) + " nodes; a million are allowed");
+  require(size >= 2, "a soft body needs at least two nodes; for a single one, use a rigid body or a particle");
+  require(size <= most_nodes, "a soft body of " + std::to_string(size) + " nodes is too large; a million are allowed");
   require(settings.masses.size() == size, "a soft body of " + std::to_string(size) + " nodes has " +
                                               std::to_string(settings.masses.size()) + " masses");
   require(settings.velocities.empty() || settings.velocities.size() == size,
@@ -135,7 +137,8 @@ void check_volumes(SoftSettings& settings) {
       mesh.triangles.insert(mesh.triangles.end(), triangle.begin(), triangle.end());
     }
     mesh.positions = x;
-    require(is_closed(mesh), whose + " is not closed: each edge must have a triangle on either side, of one winding");
+    require(is_closed(mesh),
+            whose + " is not closed: each edge must have a triangle on either side, both wound the same way");
     require_volume(enclosed_by(enclosure.triangles, x), whose);
     if (!enclosure.volume) enclosure.volume = enclosed_by(enclosure.triangles, x);
     require_volume(*enclosure.volume, whose);

@@ -86,7 +86,7 @@ SurfaceMesh sound(const SurfaceMesh& mesh) {
                                           "); vertices must be finite and at most 1e30 m away");
   }
   require_mesh(mesh.triangles.size() % 3 == 0,
-               "has " + std::to_string(mesh.triangles.size()) + " corners, which are not three for each triangle");
+               "has " + std::to_string(mesh.triangles.size()) + " corners, which is not three per triangle");
   require_mesh(mesh.triangles.size() / 3 <= TriangleMesh::most_triangles,
                "can have " + std::to_string(TriangleMesh::most_triangles) + " triangles, but has " +
                    std::to_string(mesh.triangles.size() / 3));

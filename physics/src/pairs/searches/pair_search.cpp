@@ -29,7 +29,7 @@ void by_tree(Search& search) {
 }  // namespace pairs
 
 PairsFound find_pairs(PairSearch by, std::span<const Bounds> boxes) {
-  if (!pairs::exists(by)) throw std::invalid_argument("there is no such way to find pairs");
+  if (!pairs::exists(by)) throw std::invalid_argument("there is no such broad phase");
   std::vector<pairs::Item> items;
   items.reserve(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {

@@ -84,7 +84,7 @@ std::vector<Plate> checked_plates(const Shape& shape, const Place& place) {
 }
 
 void demand_end(const Shape& shape) {
-  demand(!is_endless(shape), "a half-plane has no end: ask with a shape that has one");
+  demand(!is_endless(shape), "a half-plane is infinite: ask with a finite shape");
 }
 
 Ray checked_ray(const Vec2& from, const Vec2& direction, double length) {

@@ -63,7 +63,7 @@ void require_usable(std::span<const Vec3> points) {
 
 [[noreturn]] void refuse_rounding(std::size_t count) {
   throw std::invalid_argument("the convex hull of these " + std::to_string(count) +
-                              " points hangs on rounding errors; leave out points that nearly coincide");
+                              " points depends on rounding errors; leave out points that nearly coincide");
 }
 
 /// The normal from the area that the loop encloses (Newell), the offset from the farthest of all vertices.
@@ -178,7 +178,7 @@ ConvexHull::ConvexHull(std::span<const Vec3> vertices, std::span<const std::vect
   for (const auto& loop : faces) {
     require(loop.size() >= 3 && loop.size() <= vertices.size(), "a face needs 3 corners, and each vertex only once");
     for (const std::uint32_t corner : loop) {
-      require(corner < vertices.size(), "a corner is none of the vertices");
+      require(corner < vertices.size(), "a corner is not one of the vertices");
       ++used[corner];
     }
   }

@@ -45,7 +45,7 @@ Particles particles_of(const StageState& state, const ParticlesDescription& desc
   }
   for (const ForceDescription& force : described.forces) {
     if (force.a != no_node || force.b != no_node || !force.bodies.empty())
-      throw std::invalid_argument("forces on particles know no bodies");
+      throw std::invalid_argument("forces on particles cannot name bodies");
     particles.add_force(force.force, force.strength);
   }
   return particles;

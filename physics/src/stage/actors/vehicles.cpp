@@ -53,7 +53,7 @@ void add_vehicles(StageState& state, const StageDescription& description, std::v
 void control_vehicle(StageState& state, std::string_view name, const VehicleControl& control) {
   StagedVehicle& staged = state.vehicles[index_called(state.vehicles, name, "vehicle")];
   if (!control.throttle && !control.brake && !control.steer)
-    throw std::invalid_argument("a vehicle must be told a throttle, a brake or a steer");
+    throw std::invalid_argument("a vehicle control needs a throttle, a brake or a steer");
   const auto require = [](const std::optional<double>& value, const char* what) {
     if (value && !std::isfinite(*value))
       throw std::invalid_argument(std::string(what) + " of a vehicle must be finite");

@@ -70,7 +70,7 @@ class Finder {
     const double speed = state_.world.twist(body.id).linear.norm();
     if (least < thinnest || least < finest * most)
       tell_body(body, "is " + brief_text(least) + " m thin and " + brief_text(most) +
-                          " m long; forces and contacts may throw what is thinner than 1e-6 m, or than a millionth of "
+                          " m long; forces and contacts may throw bodies thinner than 1e-6 m, or than a millionth of "
                           "its length");
     else if (most > farthest)
       tell_body(body, "is " + brief_text(most) + " m large; up to 1e9 m goes well");
@@ -114,8 +114,8 @@ class Finder {
   void follow(std::size_t index) {
     if (runs_away(description_.forces[index].force))
       tell(Part::force, index,
-           "this force drives outward and grows faster than the distance: what it takes along is beyond all numbers "
-           "after a finite time");
+           "this force drives outward and grows faster than the distance: it carries bodies infinitely far away "
+           "in a finite time");
     constexpr std::uint32_t most_looked_at = 1000;
     const Integrator integrator = description_.world.integrator;
     const forces::NumberedForce& force = queries::forces_of(state_.world)[index];
@@ -181,7 +181,7 @@ class Finder {
           if (velocity.norm() > fastest)
             tell(Part::soft, soft,
                  "is thrown: after " + brief_text(trial.time()) + " s it moves at " + brief_text(velocity.norm()) +
-                     " m/s, by what is too strong for the step");
+                     " m/s, by something too strong for the step");
       if (!out_.extremes.empty()) return;
     }
   }

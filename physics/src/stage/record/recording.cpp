@@ -114,7 +114,7 @@ void take_particles(const Stage& stage, Recording& recording, double& room) {
       throw std::invalid_argument(
           "by " + number_text(stage.time()) + " s a recording of the particles \"" + described.name +
           "\" takes more memory than is allowed: end it earlier, take fewer frames per second, or "
-          "let fewer particles go");
+          "release fewer particles");
   }
 }
 
@@ -153,7 +153,7 @@ void require_tellable(const Stage& stage) {
   if (stage.events().size() > most_events)
     throw std::invalid_argument("a recording of " + std::to_string(stage.events().size()) + " events by " +
                                 number_text(stage.time()) +
-                                " s; a million are allowed: end it earlier, or let what has events loop less often");
+                                " s; a million are allowed: end it earlier, or loop clips with events less often");
 }
 
 }  // namespace
@@ -167,7 +167,7 @@ std::span<const TimedInput> advance_with(Stage& stage, std::span<const TimedInpu
   std::size_t given = 0;
   for (; given < inputs.size() && inputs[given].time <= until; ++given) {
     if (!(inputs[given].time >= stage.time()))
-      throw std::invalid_argument("an input at " + number_text(inputs[given].time) + " s is behind the stage's time, " +
+      throw std::invalid_argument("an input at " + number_text(inputs[given].time) + " s is before the stage's time, " +
                                   number_text(stage.time()) + " s");
     stage.advance_to(inputs[given].time);
     stage.give(inputs[given].what);

@@ -48,8 +48,8 @@ BodySettings settings_of(const StageState& state, NodeId node, const BodyDescrip
                         .collides_with = body.collides_with};
   if (body.mass_properties && scale != Vec3(1, 1, 1))
     throw std::invalid_argument(
-        "a density that varies and mass properties are told for a node of scale 1; this one is "
-        "scaled, so give its shape its size instead");
+        "a varying density and mass properties need a node of scale 1; this one is "
+        "scaled, so scale its shape instead");
   settings.drive = body.drive ? *body.drive : state.animation->animates(node) ? Drive::keyed() : Drive::free();
   settings.motion = rigid(start.motion);
   if (!body.twist.linear.allFinite() || !body.twist.angular.allFinite())
@@ -126,7 +126,7 @@ void validate(const OwnerChange& change) {
     throw std::invalid_argument("a velocity is averaged over a time above 0 s");
   const Twist& added = change.take_over.add;
   if (!state::countable(change.take_over.scale) || !state::countable(added.linear) || !state::countable(added.angular))
-    throw std::invalid_argument("what scales a velocity and what is added to it must be finite, at most 1e30");
+    throw std::invalid_argument("the scale of a velocity and what is added to it must be finite and at most 1e30");
   if (!(change.take_over.rewind_within >= 0)) throw std::invalid_argument("a rewind needs a time of 0 s or more");
   if (!(change.ramp >= 0) || !std::isfinite(change.ramp))
     throw std::invalid_argument("a ramp takes a time of 0 s or more");
@@ -231,16 +231,16 @@ Hierarchy nodes_of(const StageDescription& description, std::vector<StageFault>&
 void add_described_force(StageState& state, const ForceDescription& described) {
   const auto body_at = [&](std::size_t node, const std::string& what) {
     const StagedBody* body = node < state.body_of.size() ? state.body(node) : nullptr;
-    if (!body) throw std::invalid_argument(what + " must be nodes with bodies");
+    if (!body) throw std::invalid_argument(what + " must be a node with a body");
     return body->id;
   };
   Force force = described.force;
   const auto name_bodies = [&](auto& kind) {
     if constexpr (requires { kind.anchor_a; }) {
-      kind.a = body_at(described.a, "a spring's ends");
-      kind.b = described.b == no_node ? BodyId{} : body_at(described.b, "a spring's ends");
+      kind.a = body_at(described.a, "an end of a spring");
+      kind.b = described.b == no_node ? BodyId{} : body_at(described.b, "an end of a spring");
     } else if constexpr (requires { kind.turns; }) {
-      kind.body = body_at(described.a, "what is pushed");
+      kind.body = body_at(described.a, "what a push acts on");
     } else if constexpr (requires { kind.of; }) {
       kind.of = described.a == no_node ? BodyId{} : body_at(described.a, "what an attractor is on");
     }

@@ -47,7 +47,7 @@ void add_pin(StageState& state, WholePose& pose, const SoftDescription& describe
     } else {
       const WorldMotion& world = pose.authored(pinned.to);
       if (!(std::abs(world.linear.determinant()) > 1e-12) && !pinned.point)
-        refuse("\"" + (*state.nodes)[pinned.to].name + "\" is scaled to nothing; say where on it");
+        refuse("\"" + (*state.nodes)[pinned.to].name + "\" has a scale of 0; give the point on it");
       const Vec3 point =
           pinned.point ? *pinned.point : Vec3(world.linear.inverse() * (place - world.motion.pose.position));
       pin.point = world.point(point);

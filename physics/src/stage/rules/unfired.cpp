@@ -40,7 +40,7 @@ struct Reason {
   }
   std::string operator()(const when::ClipEnd&) const { return "no clip that moves the body ended while it waited"; }
   std::string operator()(const when::SpeedPeak&) const {
-    return "the path of the body had no peak of its speed while it waited";
+    return "the speed on the body's path had no peak while it waited";
   }
   std::string operator()(const when::ContactHit& hit) const {
     const std::string what = hit.with.empty() ? "nothing" : "nothing named \"" + hit.with + "\"";

@@ -38,7 +38,7 @@ class Numbers : public saving::Teller<Numbers> {
  public:
   template <class T>
   void number(const T& value) {
-    if constexpr (std::is_floating_point_v<T>) require(!std::isnan(value), "number: it is none");
+    if constexpr (std::is_floating_point_v<T>) require(!std::isnan(value), "number: it is not a number");
   }
   void text(const std::string&) {}
   void hull(const ConvexHull&) {}
@@ -54,7 +54,7 @@ void check_time(const StageState& state, double now, bool between, double step) 
   constexpr std::int64_t most_steps = 1'000'000'000'000;
   require(state.steps >= 0 && state.steps <= most_steps, "number of steps");
   const double start = static_cast<double>(state.steps) * step, end = static_cast<double>(state.steps + 1) * step;
-  require(state.time >= start - sliver && state.time <= end && end > start, "time: it is not that of its steps");
+  require(state.time >= start - sliver && state.time <= end && end > start, "time: it does not match its steps");
   require(now <= (between ? end : state.time + sliver) && now >= state.time - sliver,
           "time: it is not near that of its state");
   require(state.splits >= 0 && state.splits <= 1024, "number of splits");
@@ -87,7 +87,7 @@ void check_bodies(const StageState& state) {
   }
   require(state.world.bodies().size() == here, "world: it has more bodies than the stage");
   const std::vector<SoftId> softs = soft_bodies(state.world);
-  require(softs.size() == state.softs->list.size(), "world: it has not the stage's soft bodies");
+  require(softs.size() == state.softs->list.size(), "world: it does not have the stage's soft bodies");
   for (std::size_t i = 0; i < softs.size(); ++i)
     require(softs[i] == state.softs->list[i].second &&
                 soft_positions(state.world, softs[i]).size() == state.softs->nodes[i],
@@ -136,9 +136,9 @@ std::shared_ptr<const StagedJoints> joints_of(const std::vector<StagedJoint>& li
     if (joint.id != JointId{}) ++held;
   for (const JointId& id : state.world.joints()) {
     require(id.index < joints->by_index.size() && joints->list[joints->by_index[id.index]].id == id,
-            "world: one of its joints is none of the stage's");
+            "world: one of its joints is not the stage's");
   }
-  require(state.world.joints().size() == held, "list of joints: two are one of the world's");
+  require(state.world.joints().size() == held, "list of joints: two share one of the world's");
   return joints;
 }
 
@@ -191,7 +191,7 @@ void Timeline::load(std::span<const std::byte> saved) {
   std::vector<HandOff> past_handoffs;
   visit(described);
   if (described != fingerprint(description))
-    throw std::invalid_argument("this saved stage is of another description than the one that it would go on with");
+    throw std::invalid_argument("this saved stage has another description than the stage that would load it");
   visit(now, between, commands, happenings);
   visit.places(told, of_piece);
   visit(past_events, past_handoffs, time);
@@ -206,7 +206,7 @@ void Timeline::load(std::span<const std::byte> saved) {
   std::vector<StagedJoint> joints;
   std::vector<std::byte> world;
   visit(joints, world);
-  in.require(in.at_end(), "there is more than a stage");
+  in.require(in.at_end(), "there is more data than a stage");
   state.world.load(world);
   Numbers numbers;
   each_moving_field(std::as_const(state), saving::Walk<Numbers>(numbers));
