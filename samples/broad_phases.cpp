@@ -1,4 +1,4 @@
-// The same pairs by every search, and what each takes to find them: a table, and a picture of how they cut space.
+// The same pairs by every search, and how many tests each takes: a table, and a picture of how the searches cut space.
 
 #include <tweenfall/physics/pair_search.h>
 
@@ -29,7 +29,7 @@ std::vector<Bounds> cloud(int count) {
   std::vector<Bounds> boxes;
   boxes.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    // Steps of the golden ratio and of the root of two spread evenly.
+    // Multiples of the golden ratio and of the square root of two spread evenly.
     const double across = std::fmod(i * 0.6180339887498949, 1), up = std::fmod(i * 0.4142135623730951, 1);
     const double side = 0.06 + 0.18 * std::fmod(i * 0.7320508075688772, 1);
     const Vec3 low(20 * across * across, 10 * up, 0.1 * (i % 5));

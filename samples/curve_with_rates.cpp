@@ -21,7 +21,7 @@ int main() {
     std::printf("%6.2f %9.4f %9.4f\n", time, sample.value, sample.rate);
   }
 
-  // At a key where the curve kinks, both sides are there to be asked for.
+  // At a key where the curve kinks, both sides can be asked for.
   std::printf("at 0.8 s it arrives with %.3f and leaves with %.3f\n", height.rate(0.8, Side::in), height.rate(0.8));
   return height.rate(0.8, Side::in) < -6.9 && height.rate(0.8) == 0 ? 0 : 1;
 }

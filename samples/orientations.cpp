@@ -1,5 +1,5 @@
-// The lecture's two tables of ways to say how a body is turned, with measured numbers: what each stores, what a step
-// and the way to a matrix cost, and how far a million steps drift.
+// The lecture's two tables of ways to represent the rotation of a body, with measured numbers: what each stores, what a
+// step and the conversion to a matrix cost, and how far a million steps drift.
 
 #include <tweenfall/curves/orientation.h>
 
@@ -22,7 +22,7 @@ struct Row {
   std::string name;
   int numbers;
   double cost, to_matrix;  ///< CPU s
-  double drift, off;       ///< from a rotation; from where it should be, rad
+  double drift, off;       ///< from being a rotation; from the exact rotation, rad
 };
 
 /// Runs it a million times.
@@ -39,7 +39,7 @@ Row measured(const std::string& name, int numbers, State state, const Step& step
   const double cost = seconds_of([&] {
     for (int k = 0; k < steps; ++k) state = step(state, k);
   });
-  // Summed up, so that none is left out.
+  // Summed up, so that no step is optimized away.
   double sum = 0;
   const double to_matrix = seconds_of([&] {
     State copy = state;
@@ -96,12 +96,12 @@ int main() {
           [](const UnitComplex& z, int) { return turned_to_first_order(z, rate, dt); }, to_matrix, drift, off_complex)};
   print("In a plane, a million steps of 1 ms at 3 rad/s", plane);
 
-  // In space: a top of moments 2, 2, 3 that nothing turns. It precesses about its momentum at |L| / 2, and turns on its
-  // own axis beside that.
+  // In space: a top of moments 2, 2, 3 without torque. It precesses about its momentum at |L| / 2, and also turns about
+  // its own axis.
   const Vec3 momentum(0.8, 0.6, 15);
   constexpr double beside = 5 * (2.0 - 3) / 2;
   const auto top_at = [&](double time) { return exp_map(momentum * (time / 2)) * exp_map(Vec3(0, 0, beside * time)); };
-  // Its angular velocity in the middles of the steps, once.
+  // Its angular velocity in the middle of each step, computed once.
   std::vector<Vec3> w;
   w.reserve(steps);
   for (int k = 0; k < steps; ++k) w.emplace_back(momentum / 2 + beside * (top_at((k + 0.5) * dt) * Vec3(0, 0, 1)));
@@ -136,6 +136,6 @@ int main() {
           off_quat)};
   print("\nIn space, a million steps of 1 ms of a top that precesses at 7.5 rad/s", space);
 
-  // What turns exactly stays near, what is merely added does not.
+  // Exact turns stay near, mere additions do not.
   return plane[1].off < 1e-6 && space[4].off < 0.1 && space[4].off < space[0].off ? 0 : 1;
 }

@@ -1,4 +1,4 @@
-// The same stack under each solver of contacts: what it takes to stand, in numbers.
+// The same stack under each contact solver: how well it stands, in numbers.
 
 #include <tweenfall/importers/document.h>
 #include <tweenfall/physics/detail.h>

@@ -17,11 +17,11 @@ double smooth_step(double from, double to, double x) {
   return u * u * (3 - 2 * u);
 }
 
-// Joints along a limb, and where along it each hands over to the next.
+// The joints along a limb, and where each hands over to the next.
 struct Handover {
   Joint to;
   double at;          // m along the limb
-  double half_width;  // m; the two share the skin in between
+  double half_width;  // m; within it, both share the skin
 };
 
 Influence pull_of(Joint joint, double weight) {

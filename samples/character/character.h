@@ -1,6 +1,6 @@
 #pragma once
 
-/// The sample character: a skinned figure with a walk, a wave and a get-up, made from nothing but this program.
+/// The sample character: a skinned figure with a walk, a wave and a get-up, made entirely by this program.
 
 #include <tweenfall/importers/model.h>
 

@@ -16,7 +16,7 @@ Curve<Vec3> way_curve(std::initializer_list<Key<Vec3>> keys) {
   return keyed_curve<Vec3>(keys, {.ends = Ends::flat});
 }
 
-// The way the motion is told: sit up over both hands, draw the feet in, tip forward into a squat, rise.
+// The motion in words: sit up over both hands, draw the feet in, tip forward into a squat, rise.
 struct Script {
   Curve<Vec3> hips_way = way_curve({{0, Vec3(0, 0.130, -0.60)},
                                     {0.12, Vec3(0, 0.130, -0.60)},

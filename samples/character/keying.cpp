@@ -10,7 +10,7 @@ namespace tweenfall::character {
 
 namespace {
 
-// Wide enough for doubles, narrow enough that the slope is right to about 1e-6 of itself.
+// Wide enough for doubles, narrow enough that the slope is right to about 1e-6, relatively.
 constexpr double narrow = 1e-4;  // s
 
 struct KeyedPose {

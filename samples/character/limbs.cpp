@@ -38,7 +38,7 @@ void hang_arm(FigurePose& pose, Flank flank, const ArmAngles& angles) {
 TwoBones arm_bones(Flank flank) {
   const Arm arm = arm_of(flank);
   const Vec3 upper = bind_offset(arm.forearm);
-  // Hanging, the elbow bends about -X; the bind pose has turned that with the arm.
+  // When hanging, the elbow bends about -X; the bind pose has turned that axis with the arm.
   const Vec3 along = upper.normalized();
   return {upper, bind_offset(arm.hand), Vec3(along.y(), -along.x(), 0)};
 }

@@ -18,7 +18,7 @@ void hang_arm(FigurePose& pose, Flank flank, const ArmAngles& angles);
 /// Two bones and the hinge between them, as they are in the bind pose.
 struct TwoBones {
   Vec3 upper, lower;  ///< from joint to joint, m
-  Vec3 hinge;         ///< unit, across both; a positive turn about it bends the limb
+  Vec3 hinge;         ///< unit, perpendicular to both; a positive turn about it bends the limb
 };
 [[nodiscard]] TwoBones arm_bones(Flank flank);
 [[nodiscard]] TwoBones leg_bones(Flank flank);
@@ -35,7 +35,7 @@ struct TwoTurns {
 /// A target out of reach is approached up to 0.1 % short of the limb's full length.
 [[nodiscard]] TwoTurns reach(const TwoBones& bones, const Vec3& root, const Vec3& target, const Vec3& pole);
 
-/// A foot on its way: where its ankle is and how the foot stands, in the world.
+/// The pose of a foot: where its ankle is and how the foot is turned, in the world.
 struct FootPlace {
   Vec3 ankle{0, 0, 0};
   Quat rotation{1, 0, 0, 0};

@@ -20,12 +20,12 @@ struct Section {
 
 struct Loft {
   Vec3 side{1, 0, 0};  ///< unit
-  Vec3 up{0, 0, 1};    ///< unit, across `side`
+  Vec3 up{0, 0, 1};    ///< unit, perpendicular to `side`
   std::vector<Section> sections = {};
-  double start_cap = 0;  ///< how far the rounded end stands beyond the first section, m
+  double start_cap = 0;  ///< how far the rounded end extends beyond the first section, m
   double end_cap = 0;    ///< and beyond the last
   int around = 16;       ///< vertices on a ring
-  int rings = 16;        ///< rings from first section to last; the caps' come on top
+  int rings = 16;        ///< rings from first section to last, not counting the caps
   int cap_rings = 3;     ///< rings on each cap
 };
 

@@ -12,7 +12,7 @@ inline constexpr int walk_forward_cycles = 4;
 
 /// Walking on the spot; repeats every `walk_cycle`. The left heel strikes at 0.
 [[nodiscard]] FigurePose walk_pose(double time);
-/// The same steps over the floor, towards +Z: feet that stand do not slide.
+/// The same steps over the floor, towards +Z: standing feet do not slide.
 [[nodiscard]] FigurePose walk_forward_pose(double time);
 
 inline constexpr double wave_duration = 3;  ///< s

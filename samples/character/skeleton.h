@@ -3,8 +3,8 @@
 /// The figure's bones: 21 joints, where each is when the mesh is bound, and poses of them.
 ///
 /// The figure is 1.7 m tall, faces +Z, has its left at +X and stands on y = 0. It is bound with the arms 45 degrees
-/// out, half way between hanging and level, so that shoulders bend well both ways. Every joint's axes are the world's
-/// then: a turn is relative to the parent, and all turns are the identity in the bind pose.
+/// out, half way between hanging and level, so that shoulders bend well both ways. In the bind pose every joint's axes
+/// are the world's: a turn is relative to the parent, and all turns are the identity there.
 
 #include <tweenfall/curves/values.h>
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double flat_from = 0.11, heel_off = 0.34, toe_off = 0.60, toes_straight = 0.84;
 constexpr double heel_strike_ahead = 0.275;  // ankle before the hips at heel strike, m
 constexpr double step_half_width = 0.075, toes_out = 6 * degree;
-constexpr double swing_lift = 0.07;  // m, on top of the straight way of the ankle
+constexpr double swing_lift = 0.07;  // m, added to the straight path of the ankle
 
 double wrapped(double phase) {
   return phase - std::floor(phase);
@@ -41,12 +41,12 @@ Quat foot_rotation(double pitch, double yaw) {
   return turn_y(yaw) * turn_x(-pitch);
 }
 
-// A place and how fast it moves, per cycle.
+// A position and its velocity, per cycle.
 struct Path {
   Vec3 value, rate;
 };
 
-// The ankle while the foot turns about a point of its own that stays where it is.
+// The ankle while the foot turns about a point of its own that stays in place.
 Path about_pivot(const Vec3& pivot_when_flat, const Vec3& pivot_from_ankle, double phase, double yaw) {
   const Sample<double> pitch = pitch_curve().sample(phase);
   const Vec3 arm = foot_rotation(pitch.value, yaw) * Vec3(-pivot_from_ankle);
@@ -54,7 +54,7 @@ Path about_pivot(const Vec3& pivot_when_flat, const Vec3& pivot_from_ankle, doub
   return {pivot_when_flat + arm, axis.cross(arm) * pitch.rate};
 }
 
-// Of a foot whose ankle, once flat, stands at `stand`; 0 <= phase <= toe_off.
+// For a foot whose ankle, once flat, is at `stand`; 0 <= phase <= toe_off.
 Path stance(const Vec3& stand, const Vec3& heel, const Vec3& ball, double phase, double yaw) {
   const Vec3& pivot = phase < flat_from ? heel : ball;
   return about_pivot(stand + turn_y(yaw) * pivot, pivot, phase, yaw);
@@ -76,7 +76,7 @@ FootPlace foot_at(Flank flank, double phase) {
   if (phase < toe_off) {
     place.ankle = stance(stand, heel, ball, phase, yaw).value;
   } else {
-    // From where the toes leave to where the heel strikes next, with the speeds it has there.
+    // From where the toes leave to where the heel strikes next, with the velocities it has there.
     const Path from = stance(stand, heel, ball, toe_off, yaw);
     Path to = stance(stand, heel, ball, 0, yaw);
     to.value.z() += walk_stride;
@@ -89,7 +89,7 @@ FootPlace foot_at(Flank flank, double phase) {
   if (phase > flat_from) {
     const double u = std::fmin(1.0, std::fmax(0.0, (phase - toe_off) / (toes_straight - toe_off)));
     place.toe_bend = -pitch_curve().value(phase) * (1 - u * u * (3 - 2 * u));
-    // Back over the hips: the body has moved on by its share of the stride.
+    // Relative to the hips: the body has moved on by its share of the stride.
   }
   place.ankle.z() -= phase * walk_stride;
   return place;
@@ -101,7 +101,7 @@ double wave_of(double phase) {
 
 void pose_trunk(FigurePose& pose, double phase) {
   const double lead = wave_of(phase);              // 1 when the left foot is in front
-  const double load = wave_of(phase - 0.30);       // 1 when the left leg carries
+  const double load = wave_of(phase - 0.30);       // 1 when the left leg carries the weight
   const double bob = wave_of(2 * (phase - 0.05));  // 1 while both feet stand
   pose.hips_position = Vec3(0.020 * load, 0.913 - 0.019 * bob, 0.006 * wave_of(2 * phase - 0.3));
   pose.turns[hips] = turn_y(-6 * degree * lead) * turn_x(3 * degree + 0.8 * degree * bob) * turn_z(3.5 * degree * load);

@@ -31,7 +31,7 @@ const Curve<double>& swing_curve() {
   return curve;
 }
 
-// Along the curve of rotations from hanging over half way up, so that the hand passes in front of the body.
+// Along the curve of rotations from hanging past the middle to up, so that the hand passes in front of the body.
 Quat mixed(const Quat& low, const Quat& middle, const Quat& high, double raised) {
   const Curve<Quat> way = keyed_curve<Quat>({{.time = 0, .value = low, .ease = Ease::smooth()},
                                              {.time = 0.5, .value = middle, .ease = Ease::smooth()},
@@ -59,7 +59,7 @@ FigurePose wave_pose(double time) {
   FigurePose pose = low;
   for (const Joint joint : {right_shoulder, right_upper_arm, right_forearm})
     pose.turns[joint] = mixed(low.turns[joint], middle.turns[joint], high.turns[joint], raised);
-  // About the figure's own front axis: part from the upper arm, most from the elbow, and the hand trails.
+  // About the figure's own front axis: partly from the upper arm, mostly from the elbow, and the hand trails.
   pose.turns[right_upper_arm] = turn_z(0.25 * swing) * pose.turns[right_upper_arm];
   const PlacedFigure placed = place(pose);
   const Quat upper = placed.rotations[right_upper_arm];

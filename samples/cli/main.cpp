@@ -1,4 +1,4 @@
-// tweenfall: a thin program on the libraries. Here are the exit codes; each verb has its file below verbs/.
+// tweenfall: a thin program on the libraries. Exit codes are decided here; each verb has its file below verbs/.
 
 #include "report/faults.h"
 #include "report/terminal.h"
@@ -26,12 +26,12 @@ constexpr const char* overview =
     "\n"
     "tweenfall --help lists all verbs, tweenfall VERB --help says more of one.\n";
 
-/// Files that are opened would take the numbers of streams that whoever called has closed, and messages would be
+/// If the caller has closed standard streams, newly opened files would get their numbers, and messages would be
 /// written into them.
 void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0 && errno == EBADF)
-      // For reading alone, so that a result that is printed to nowhere is still a fault.
+      // Read-only, so that printing a result to a closed stdout is still a fault.
       static_cast<void>(open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY));
 }
 

@@ -108,7 +108,7 @@ TEST_CASE("frames that nobody counted are fewer where the usual ones would not f
   folder.write("thrown.json", thrown_document);
   const Ran ran = folder.run("run thrown.json --until 100 --limit 0.1 --json");
   CHECK_MESSAGE(ran.code == 0, ran.err);
-  CHECK(ran.err.find("MB of recording, above 0.1; there are") != std::string::npos);
+  CHECK(ran.err.find("MB of recording, above 0.1; it is taken at") != std::string::npos);
   CHECK(ran.out.size() < 200'000);
   CHECK(json::parse(ran.out)["times"].back() == 100);
 }

@@ -57,7 +57,7 @@ TEST_CASE("output that cannot be written is a fault of every verb, and of help")
     CAPTURE(arguments);
     const Ran full = folder.shell(command_word() + " " + arguments + " > /dev/full");
     CHECK(full.code == 1);
-    CHECK(holds(full.err, "standard output takes no more"));
+    CHECK(holds(full.err, "standard output cannot be written"));
     const Ran closed = folder.shell(command_word() + " " + arguments + " >&-");
     CHECK(closed.code == 1);
   }

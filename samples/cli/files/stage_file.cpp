@@ -93,7 +93,7 @@ StageFile read_stage_file(const std::string& file) {
 StageFile judged_stage_file(const std::string& file) {
   StageFile read = unjudged_file(file);
   if (read.stage.name.empty()) read.stage.name = read.name;
-  // What a file alone does not tell: whether its parts make a stage that can be stepped and shown.
+  // Only now it shows whether the parts make a stage that can be stepped and shown.
   Stage stage = make_stage(read.stage, file);
   try {
     check_drawable(record(stage, 0, 1), read.stage);

@@ -36,7 +36,7 @@ std::vector<std::string> split_at_commas(const std::string& text) {
   return parts;
 }
 
-/// The option that was meant by an argument that none of the verb's options is called.
+/// The first argument that looks like an option but is none of the verb's.
 std::optional<std::string> unknown_option(const CLI::App& verb, const std::vector<std::string>& arguments) {
   std::vector<std::string> known;
   for (const CLI::Option* option : verb.get_options()) {
@@ -178,7 +178,7 @@ int CommandLine::run(const std::vector<std::string>& arguments) {
     const CLI::App& asked = chosen.empty() ? app : *chosen[0];
     const std::string help =
         std::string("\n  ") + (chosen.empty() ? "" : "tweenfall ") + asked.get_name() + " --help says more";
-    // The verb itself stands first where there is one.
+    // The verb itself comes first if there is one.
     std::vector<std::string> after = arguments;
     if (!chosen.empty()) after.erase(after.begin());
     if (const auto unknown = unknown_option(asked, after)) throw UsageError(*unknown + help);

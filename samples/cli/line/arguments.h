@@ -12,12 +12,12 @@
 
 namespace tweenfall::cli {
 
-/// What is wrong with the way the command was called; the command ends with 2.
+/// A mistake in how the command was called; the command ends with exit code 2.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What one verb takes. Every call binds a variable, which must live until the verb has run.
+/// The arguments of one verb. Every call binds a variable, which must live until the verb has run.
 class Arguments {
  public:
   /// @param implementation  the parser's own object for the verb
@@ -39,7 +39,7 @@ class Arguments {
   void* implementation_;
 };
 
-/// What a verb does once its arguments are there; @returns the exit code.
+/// What a verb does once its arguments are parsed; @returns the exit code.
 using Run = std::function<int()>;
 
 struct Verb {
@@ -49,7 +49,7 @@ struct Verb {
   Run (*declare)(Arguments&);
 };
 
-/// An option as completion needs it.
+/// An option for completion.
 struct OptionName {
   std::string name;         ///< "--clip", "-o"
   std::string says;         ///< its line of the help
@@ -61,7 +61,7 @@ class CommandLine {
   explicit CommandLine(std::span<const Verb* const> verbs);
   ~CommandLine();
 
-  /// Parses, and runs the verb. Help and version go to stdout. @throws UsageError; and what the verb throws.
+  /// Parses, and runs the verb. Help and version go to stdout. @throws UsageError; and whatever the verb throws.
   int run(const std::vector<std::string>& arguments);
 
   [[nodiscard]] std::vector<OptionName> options(std::string_view verb) const;

@@ -67,7 +67,7 @@ Animation animation_of(const StageDescription& stage, std::size_t clip) {
   auto nodes = std::make_shared<Hierarchy>();
   for (const NodeDescription& node : stage.nodes) nodes->add({node.name, node.parent, node.rest});
   Clip played = stage.clips[clip];
-  // Without a loop nothing stops the clock, so that curves go on as they do for their tracks.
+  // Without a loop nothing stops the clock, so that curves continue by the rules of their tracks.
   if (played.loop.mode == LoopMode::once) played.duration = std::numeric_limits<double>::infinity();
   return {std::move(nodes), {std::move(played)}, {Play{}}};
 }

@@ -14,13 +14,13 @@ namespace tweenfall::cli {
 /// What a track's value is, in one word: "number", "vector", "color", "rotation", "weights", "switch", "text".
 [[nodiscard]] const char* kind_of(const TrackCurve& curve) noexcept;
 
-/// The tracks' indices whose names match any of the patterns ("arm.*"); all without patterns.
+/// The indices of the tracks whose names match any of the patterns ("arm.*"); without patterns, of all.
 /// @throws UsageError for a pattern that matches none, with the nearest name.
 [[nodiscard]] std::vector<std::size_t> choose_tracks(const Clip& clip, const std::vector<std::string>& patterns);
 
 /// The track at `time` on the clip's timeline: a loop wraps the time first; without one, the curve's own rules hold
-/// before its first and after its last key. At the clip's very end it is the motion that arrives there, with which a
-/// hand-off at the clip's end lets go.
+/// before its first and after its last key. At the very end of the clip it is the motion that arrives there, with which
+/// a hand-off at the clip's end releases the body.
 [[nodiscard]] TrackSample sample_track(const Clip& clip, const Track& track, double time);
 
 [[nodiscard]] std::string value_json(const TrackCurve& curve, const TrackSample& sample);

@@ -7,7 +7,7 @@
 
 namespace tweenfall::cli {
 
-/// @throws UsageError naming the option that is not a sensible number of frames per second, or end, or makes too many.
+/// @throws UsageError naming the option, for frames per second or an end that make no sense, or too many frames.
 void require_frames(double fps, double until);
 
 /// 0, 1/fps, 2/fps, ... and `until` itself.

@@ -18,10 +18,10 @@ namespace {
 
 constexpr double megabyte = 1e6, most_steps = 2e7;
 
-/// How many particles there are shows only as they go: a recording of them ends with an error here, bytes.
+/// The number of particles is only known as they come: a recording of them ends with an error at this size, bytes.
 constexpr double most_of_particles = 4e9 / 3;
 
-/// What one frame holds of one node.
+/// Size of one node in one frame.
 constexpr double bytes_of_a_pose = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner) + sizeof(Color);
 
 double bytes_of_a_frame(const StageDescription& stage) {
@@ -33,7 +33,7 @@ double bytes_of_a_frame(const StageDescription& stage) {
   return static_cast<double>(stage.nodes.size()) * bytes_of_a_pose + weights + softs + sizeof(double);
 }
 
-/// @throws UsageError saying how much is too much.
+/// @throws UsageError saying how large the recording would be.
 double chosen_fps(const StageDescription& stage, const RunOptions& options, double until) {
   const double most_bytes = options.limit.value_or(options.usual_limit) * megabyte;
   const double fps = options.fps.value_or(options.usual_fps), bytes = bytes_of_a_frame(stage) * (until * fps + 1);
@@ -44,12 +44,12 @@ double chosen_fps(const StageDescription& stage, const RunOptions& options, doub
   const double fewer = until > 0 ? std::floor(1e3 * (most_bytes / bytes_of_a_frame(stage) - 1) / until) / 1e3 : 0;
   if (options.fps || !(fewer > 0))
     throw UsageError(amount + "; ask for less with --until or --fps, or for more with --limit");
-  say(options.file + ": note: " + amount + "; there are " + brief_text(fewer) +
-      " frames per second, and more with --limit or a shorter --until");
+  say(options.file + ": note: " + amount + "; it is taken at " + brief_text(fewer) +
+      " frames per second; a greater --limit or a shorter --until allows more");
   return fewer;
 }
 
-/// Nothing that a person wrote is passed over in silence: rules that waited to the end say why.
+/// Nothing that a person wrote is silently skipped: rules that never fired say why.
 void say_unfired(const Recording& recording, const std::string& file) {
   constexpr std::size_t most = 20;
   for (std::size_t i = 0; i < recording.unfired.size() && i < most; ++i) {
@@ -64,9 +64,10 @@ void say_unfired(const Recording& recording, const std::string& file) {
 }  // namespace
 
 void declare_amount(Arguments& arguments, RunOptions& options) {
-  arguments.number("--until", "T", options.until, "to stage time T, s; else until it has shown what it has");
-  arguments.number("--fps", "N", options.fps, "frames per second; 60 without it, fewer of what is very long or large");
-  arguments.number("--limit", "MB", options.limit, "at most so many megabytes of recording in memory");
+  arguments.number("--until", "T", options.until, "to stage time T, s; without it, until everything has been shown");
+  arguments.number("--fps", "N", options.fps,
+                   "frames per second; 60 without it, fewer for very long or large recordings");
+  arguments.number("--limit", "MB", options.limit, "greatest size of the recording in memory, megabytes");
 }
 
 void require_amount(const RunOptions& options) {
@@ -76,21 +77,21 @@ void require_amount(const RunOptions& options) {
 }
 
 Recording run_stage(const StageDescription& description, const RunOptions& options) {
-  // What comes last has a while to be seen.
+  // What comes last stays visible for a while.
   constexpr double after_input = 3;
   const double last_input = options.inputs.empty() ? 0 : options.inputs.back().time + after_input;
   const double natural = std::max(natural_length(description), last_input), until = options.until.value_or(natural);
   if (until / description.step > most_steps)
     throw UsageError(brief_text(until) + " s are " + brief_text(until / description.step) + " steps of " +
-                     brief_text(description.step) + " s, above the " + brief_text(most_steps) +
-                     " that are taken at most; ask for less with --until");
+                     brief_text(description.step) + " s, more than the limit of " + brief_text(most_steps) +
+                     "; ask for less with --until");
   require_amount(options);
   const double fps = chosen_fps(description, options, until);
   if (!options.until)
     for (const Play& play : description.plays)
       if (const double end = end_time(play, description.clips[play.clip]); std::isfinite(end) && end > until) {
         say(options.file + ": note: \"" + description.clips[play.clip].name + "\" plays until " + brief_text(end) +
-            " s, of which the first " + brief_text(until) + " s are shown; --until says otherwise");
+            " s, of which the first " + brief_text(until) + " s are shown; use --until for more");
         break;
       }
   const Progress progress("running " + options.file + " to " + brief_text(until) + " s");

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Running a stage the way `run`, `plot` and `view` do, and telling in a sentence what the recording shows.
+/// Runs a stage the way `run`, `plot` and `view` do, and says in a sentence what the recording shows.
 
 #include "files/stage_file.h"
 #include "line/arguments.h"
@@ -13,27 +13,28 @@
 
 namespace tweenfall::cli {
 
-/// What the three verbs let people choose.
+/// Options that the three verbs share.
 struct RunOptions {
   std::string file;
   std::optional<std::string> clip;
-  std::optional<double> until;  ///< s; the stage's natural length when absent
-  std::optional<double> fps;    ///< frames per second; where absent `usual_fps`, or fewer where those were too many
+  std::optional<double> until;  ///< s; if absent, the stage's natural length
+  std::optional<double> fps;    ///< frames per second; if absent `usual_fps`, or fewer if those would be too many
   double usual_fps = 60;
   std::optional<double> limit;  ///< megabytes of recording
   double usual_limit = 512;
-  std::vector<TimedInput> inputs{};  ///< given on the way, in order of time
-  bool details = false;              ///< whether what the steps worked with is recorded, too
+  std::vector<TimedInput> inputs{};  ///< given during the run, in order of time
+  bool details = false;              ///< whether the internal data of the steps is recorded, too
 };
 
-/// The options that say how much is recorded.
+/// Declares the options that say how much is recorded.
 void declare_amount(Arguments& arguments, RunOptions& options);
 
-/// What was asked for, as far as it can be judged before a file is read. @throws UsageError
+/// Checks the options as far as possible before a file is read. @throws UsageError
 void require_amount(const RunOptions& options);
 
-/// Runs from 0, with progress on a terminal. Where nobody said how many, there are fewer frames than usual when those
-/// would take more than the limit; that is said, and so is an end that comes before what there is to show.
+/// Runs from 0, with progress on a terminal. If no frame rate was asked for, there are fewer frames than usual when
+/// those would take more than the limit; a note says so, and another one if the run ends before everything has been
+/// shown.
 /// @throws UsageError for impossible times, or for more than the limit; Faults from the run.
 [[nodiscard]] Recording run_stage(const StageDescription& description, const RunOptions& options);
 

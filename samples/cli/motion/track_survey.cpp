@@ -43,7 +43,7 @@ double size(const Vector& value) {
   return value.norm();
 }
 
-/// Greatest speed in a stretch without knots: looked for on a fine grid, then narrowed by thirds around the best.
+/// Greatest speed in a stretch without knots: searched on a fine grid, then narrowed by thirds around the best.
 template <class T>
 void search_speed(const Curve<T>& curve, double from, double to, TrackSurvey& found) {
   // A span between keys turns a few times at most; a formula may swing often.
@@ -92,7 +92,7 @@ struct Surveyor {
       if (knot > 0 && knot < end) ends.push_back(knot);
     ends.push_back(end);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) search_speed(curve, ends[i], ends[i + 1], found);
-    // Rounding in evaluation is no jump: compared with the size of what is there, and with the top speed.
+    // Rounding in evaluation is no jump: differences are compared with the size of the values, and with the top speed.
     constexpr double same = 1e-9;
     for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
       const Sample<T> in = curve.sample(knots[i], Side::in), out = curve.sample(knots[i], Side::out);

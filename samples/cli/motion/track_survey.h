@@ -1,6 +1,6 @@
 #pragma once
 
-/// What one wants to know of a track before using it: its keys, how fast it gets, where it jumps.
+/// What is worth knowing of a track before using it: its keys, how fast it gets, where it jumps.
 
 #include <tweenfall/anim/clip.h>
 
@@ -14,10 +14,10 @@ struct TrackSurvey {
   double top_speed = 0;     ///< greatest length of the rate found within the clip, per second (rotations: rad/s)
   double top_speed_at = 0;  ///< clip time, s
   std::vector<double> value_jumps;  ///< times of inner keys at which the value jumps, s
-  std::vector<double> slope_jumps;  ///< times of inner keys at which the rate alone jumps, s
+  std::vector<double> slope_jumps;  ///< times of inner keys at which only the rate jumps, s
 };
 
-/// Speeds are searched from the start of the clip to its end, `endless` seconds when it has none.
+/// Speeds are searched from the start of the clip to its end, or over `endless` seconds if it has none.
 [[nodiscard]] TrackSurvey survey(const Track& track, const Clip& clip, double endless = 10);
 
 }  // namespace tweenfall::cli

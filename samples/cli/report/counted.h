@@ -8,7 +8,7 @@
 namespace tweenfall::cli {
 
 /// "1 problem", "2 problems".
-/// @param many  the word for other counts than one; `one` with an s when empty
+/// @param many  the word for counts other than one; if empty, `one` with an s
 [[nodiscard]] std::string counted(std::size_t count, std::string_view one, std::string_view many = {});
 
 }  // namespace tweenfall::cli

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a message about a mistyped name says of the right ones.
+/// Suggestions for messages about a mistyped name.
 
 #include <span>
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace tweenfall::cli {
 
-/// "; did you mean X?", or nothing when no name is near.
+/// "; did you mean X?", or empty if no name is near.
 [[nodiscard]] std::string did_you_mean(std::string_view typed, std::span<const std::string> names);
 
-/// "a, b and c"; the first twelve and how many more there are when the list is long.
+/// "a, b and c"; of a long list, the first twelve and how many more there are.
 [[nodiscard]] std::string listed(std::span<const std::string> names);
 
-/// "a, b or c", where one of them is to be chosen; of a long list the end as above.
+/// "a, b or c", if one of them is to be chosen; a long list ends as above.
 [[nodiscard]] std::string one_of(std::span<const std::string> names);
 
 }  // namespace tweenfall::cli

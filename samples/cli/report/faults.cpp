@@ -39,7 +39,7 @@ std::vector<std::string> faults_of(const std::exception& error, const std::strin
     return texts;
   }
   if (dynamic_cast<const ModelError*>(&error)) return lines(error.what());
-  // A head and what it heads, indented: one of these per line.
+  // Each line is a heading, or an indented text below it.
   std::vector<std::string> all = lines(error.what());
   if (all.size() > 1 && all[1].starts_with(' ')) all.erase(all.begin());
   for (std::string& text : all)

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Faults of files and runs as the command tells them: every one, as compilers print them, and their number.
+/// Faults of files and runs as the command prints them: every one, in the form that compilers use, and their number.
 
 #include <cstddef>
 #include <exception>
@@ -10,7 +10,7 @@
 
 namespace tweenfall::cli {
 
-/// Faults that already say their place, one text each; the command ends with 1.
+/// Faults whose texts already name their place, one text each; the command ends with exit code 1.
 class Faults : public std::runtime_error {
  public:
   explicit Faults(std::vector<std::string> texts);
@@ -20,13 +20,14 @@ class Faults : public std::runtime_error {
   std::vector<std::string> texts_;
 };
 
-/// The texts of what a library threw, of a document its notes below; `source` stands before those that name no file.
+/// The texts of an exception from a library, for a document followed by its notes; `source` precedes those that name no
+/// file.
 [[nodiscard]] std::vector<std::string> faults_of(const std::exception& error, const std::string& source);
 
-/// How many there are: of a document with very many, more than have a text.
+/// How many there are: a document with very many faults has more than it has texts.
 [[nodiscard]] std::size_t fault_count(const std::exception& error, const std::string& source);
 
-/// All on stderr, and "2 problems" below them.
+/// Prints all on stderr, and "2 problems" below them.
 void say_faults(const std::exception& error, const std::string& source);
 
 }  // namespace tweenfall::cli

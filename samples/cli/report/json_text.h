@@ -1,6 +1,6 @@
 #pragma once
 
-/// Small pieces of JSON text, written directly: what the command prints is one flat shape a verb.
+/// Small pieces of JSON text, written directly: the command prints one flat shape per verb.
 
 #include <span>
 #include <string>
@@ -14,6 +14,6 @@ namespace tweenfall::cli {
 /// The shortest text that reads back to the same bits; "null" when not finite, as JSON has nothing else.
 [[nodiscard]] std::string json_number(double number);
 [[nodiscard]] std::string json_array(std::span<const double> numbers);
-[[nodiscard]] std::string json_array(const std::vector<std::string>& items);  ///< of texts that are JSON already
+[[nodiscard]] std::string json_array(const std::vector<std::string>& items);  ///< of texts that are already JSON
 
 }  // namespace tweenfall::cli

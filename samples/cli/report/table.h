@@ -9,7 +9,7 @@ namespace tweenfall::cli {
 
 class Table {
  public:
-  /// @param head  a column's name each; a leading ">" aligns the column to the right
+  /// @param head  one name per column; a leading ">" aligns the column to the right
   Table(std::string title, std::vector<std::string> head);
 
   void row(std::vector<std::string> cells);

@@ -32,7 +32,7 @@ bool styled_messages() {
 
 void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw std::runtime_error("standard output takes no more");
+    throw std::runtime_error("standard output cannot be written");
 }
 
 void tell(std::string_view text) {
@@ -58,7 +58,7 @@ Progress::Progress(const std::string& what) {
   if (!isatty(STDERR_FILENO)) return;
   thread_ = std::thread([this, what = terminal_text(what)] {
     using namespace std::chrono_literals;
-    // Signals are for the thread that writes files, which tidies up before it obeys them.
+    // Only the thread that writes files handles signals; it tidies up before it obeys them.
     sigset_t all;
     sigfillset(&all);
     pthread_sigmask(SIG_BLOCK, &all, nullptr);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the command says, and how: results on stdout, messages on stderr, color on a terminal only.
+/// Where and how the command prints: results on stdout, messages on stderr, color only on a terminal.
 
 #include <atomic>
 #include <string>
@@ -13,16 +13,16 @@ namespace tweenfall::cli {
 [[nodiscard]] bool styled_output();
 [[nodiscard]] bool styled_messages();
 
-/// Results, byte for byte. @throws std::runtime_error when stdout takes no more.
+/// Results, byte for byte. @throws std::runtime_error when stdout cannot be written.
 void print(std::string_view text);
 
-/// A line for people on stdout; what would drive a terminal is spelled out in this and the next. @throws as `print`.
+/// A line for people on stdout; here and in `say`, control characters are spelled out. @throws as `print`.
 void tell(std::string_view text);
 
 /// A line or several on stderr; "error:" and "note:" in it are colored.
 void say(std::string_view text);
 
-/// While it lives: what is going on and for how long, on one line of a terminal, from the second second on.
+/// While it lives, shows what is going on and for how long, on one line of a terminal, from the second second on.
 class Progress {
  public:
   explicit Progress(const std::string& what);

@@ -16,7 +16,7 @@ namespace tweenfall::cli {
 
 namespace {
 
-/// Seconds a call takes: the best of several stretches of a tenth of a second.
+/// Seconds per call: the best of several stretches of a tenth of a second.
 template <class Call>
 double seconds_of(Call&& call) {
   using Clock = std::chrono::steady_clock;
@@ -108,7 +108,7 @@ Run declare_bench(Arguments&) {
     World many = floor_with_stacks(20, 10);
     row("20 stacks of 10 boxes, one step", seconds_of([&] { many.step(1.0 / 240); }), 1, "steps");
 
-    // What was computed must be wanted, or the compiler leaves it out.
+    // The result must be used, or the compiler leaves the computation out.
     if (sum != sum) table.note("the samples are not numbers");
     print(table.text(styled_output()));
     return 0;

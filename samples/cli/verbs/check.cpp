@@ -22,8 +22,8 @@ struct CheckOptions {
 
 /// What was found in one file.
 struct Finding {
-  std::string summary;             ///< of a file without problems
-  std::vector<std::string> texts;  ///< a problem or note each, as people read it
+  std::string summary;             ///< for a file without problems
+  std::vector<std::string> texts;  ///< one problem or note each, as people read it
   std::vector<std::string> jsons;  ///< the same, as JSON objects
   std::size_t problems = 0;        ///< faults, listed or not
 };
@@ -46,7 +46,7 @@ std::string contents_of(const StageDescription& stage) {
   return text;
 }
 
-/// A line "FILE: error: ..." or "FILE:LINE:COLUMN: error: ..." taken apart; any other is the message.
+/// Splits a line "FILE: error: ..." or "FILE:LINE:COLUMN: error: ..."; any other line is only a message.
 Problem problem_of(const std::string& text, const std::string& file) {
   Problem problem;
   problem.file = file;

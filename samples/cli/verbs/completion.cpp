@@ -1,4 +1,4 @@
-// tweenfall completion: verbs and options for bash, zsh and fish, out of the one table of verbs.
+// tweenfall completion: verbs and options for bash, zsh and fish, from the one table of verbs.
 
 #include "report/terminal.h"
 #include "verbs/verbs.h"
@@ -14,7 +14,7 @@ std::string options_of(const CommandLine& line, const Verb& verb) {
   return names;
 }
 
-/// Inside single quotes of a shell.
+/// Quotes a text for use inside single quotes of a shell.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {

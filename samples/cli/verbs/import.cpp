@@ -25,7 +25,7 @@ struct ImportOptions {
 int import_file(const ImportOptions& options) {
   require_output(options.output, options.file, std::vector<std::string>{".json"});
   if (!is_model_name(options.file))
-    throw UsageError("\"" + options.file + "\" is no model; those end in .glb, .gltf, .fbx, .bvh, .dae or .obj");
+    throw UsageError("\"" + options.file + "\" is not a model; models end in .glb, .gltf, .fbx, .bvh, .dae or .obj");
   const Model model = load_model(options.file);
   for (const std::string& repair : model.repairs) say(options.file + ": note: " + repair);
   write_output(options.output, Document::from_model(model).text());

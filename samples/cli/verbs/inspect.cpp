@@ -69,7 +69,7 @@ std::string shape_text(const Shape& shape) {
   return std::visit(Words{}, shape.solid);
 }
 
-/// What the rest poses of a node and its ancestors make of lengths along its own axes.
+/// The scale that the rest poses of a node and its ancestors give to lengths along its own axes.
 Vec3 scale_at_rest(const StageDescription& stage, std::size_t node) {
   Mat3 frame = Mat3::Identity();
   for (; node != no_node; node = stage.nodes[node].parent) {
@@ -151,7 +151,7 @@ std::string events_table(const Clip& clip) {
   return table.empty() ? "" : table.text(styled_output());
 }
 
-/// A body that no file gives an owner starts keyed where a playing clip moves it or an ancestor.
+/// A body that no file gives an owner starts keyed if a playing clip moves it or an ancestor.
 std::string owner_text(const NodeDescription& node, bool animated) {
   if (node.body->fixed) return "static";
   if (!node.body->drive) return animated ? "keyed" : "free";
@@ -225,7 +225,7 @@ std::string vehicles_table(const StageDescription& stage) {
 
 std::string particles_table(const StageDescription& stage) {
   Table table(counted(stage.particles.size(), "kind of particles", "kinds of particles"),
-              {"name", "from", ">most a second", ">speed, m/s", ">life, s", ">radius, m", ">forces"});
+              {"name", "from", ">most per second", ">speed, m/s", ">life, s", ">radius, m", ">forces"});
   for (const ParticlesDescription& particles : stage.particles)
     for (const EmitterDescription& emitter : particles.emitters) {
       const auto most = [](const Curve<double>& curve) {
@@ -240,7 +240,7 @@ std::string particles_table(const StageDescription& stage) {
   return table.empty() ? "" : table.text(styled_output());
 }
 
-/// What is a clip by its formulas: the clip has what follows from them.
+/// Systems of formulas; a clip contains what follows from each.
 std::string systems_table(const std::vector<ExpressionSystem>& systems) {
   Table table(counted(systems.size(), "system"),
               {"name", "variable", ">starts as", ">rate then", ">step, s", ">lasts, s", "keeps"});

@@ -14,7 +14,7 @@ namespace {
 
 Run declare_new(Arguments& arguments) {
   auto file = std::make_shared<std::string>("-");
-  arguments.optional_file("FILE", *file, "where to write; standard output without it; what exists is left alone");
+  arguments.optional_file("FILE", *file, "where to write; standard output without it; never overwrites a file");
   return [file] {
     require_output(*file, "", std::vector<std::string>{".json"});
     if (*file != "-" && std::filesystem::exists(*file))

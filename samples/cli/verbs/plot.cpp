@@ -1,4 +1,4 @@
-// tweenfall plot: curves as SVG, with what physics made of them.
+// tweenfall plot: curves as SVG, including the motion that physics made of them.
 
 #include "files/output_file.h"
 #include "motion/clip_sampling.h"
@@ -28,7 +28,7 @@ struct PlotFileOptions : RunOptions {
 
 constexpr int most_columns = 6;
 
-/// The clips that a plot shows: the one asked for, else the only one, else all that play.
+/// The clips that a plot shows: the one asked for, or the only one, or all that play.
 std::vector<std::size_t> shown_clips(const StageDescription& stage, const PlotFileOptions& options) {
   if (stage.clips.empty() && !options.clip) return {};
   if (options.clip || stage.clips.size() < 2 || stage.plays.empty())
@@ -39,7 +39,7 @@ std::vector<std::size_t> shown_clips(const StageDescription& stage, const PlotFi
   return clips;
 }
 
-/// Patterns become names, so that a plot of nothing is refused here.
+/// Resolves patterns to names, so that an empty plot is refused here.
 std::vector<std::string> chosen_tracks(const StageDescription& stage, const std::vector<std::size_t>& clips,
                                        const std::vector<std::string>& patterns) {
   std::vector<std::string> names;
@@ -75,7 +75,7 @@ int plot_graphs(const PlotFileOptions& options) {
 int plot_portraits(const PlotFileOptions& options) {
   const StageFile read = read_stage_file(options.file);
   if (!read.document || read.document->systems().empty())
-    throw UsageError(options.file + " has no system of which to draw a portrait");
+    throw UsageError(options.file + " has no system to draw a portrait of");
   write_output(options.output, portrait_svg(read.document->systems()));
   std::string names;
   for (const ExpressionSystem& system : read.document->systems()) names += (names.empty() ? "" : ", ") + system.name;
@@ -100,7 +100,7 @@ int plot_file(const PlotFileOptions& options) {
                             .columns = static_cast<int>(columns),
                             .rates = !options.no_rates};
 
-  // Only a clip that plays on a stage with bodies has a continuation to show.
+  // Only a clip that plays on a stage with bodies has a simulated continuation.
   const bool has_bodies =
       std::any_of(stage.nodes.begin(), stage.nodes.end(), [](const auto& node) { return !!node.body; });
   const bool plays = std::any_of(stage.plays.begin(), stage.plays.end(), [&](const Play& play) {
@@ -139,14 +139,15 @@ Run declare_plot(Arguments& arguments) {
   arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
   arguments.output(options->output, "OUT.svg", "where to write; standard output without it");
   arguments.texts("--track", "NAME", options->tracks,
-                  "only this track, or those of a pattern like \"arm.*\"; again for more");
+                  "only this track, or those of a pattern like \"arm.*\"; may be repeated");
   arguments.text("--clip", "NAME", options->clip, "this clip; else the only one, or all that play");
   arguments.number("--until", "T", options->until, "simulate to stage time T, s");
-  arguments.number("--columns", "N", options->columns, "so many side by side, 1 to 6; 1 without it");
-  arguments.flag("--graph", options->graph, "the graphs instead: what is made of what, and machines with their states");
+  arguments.number("--columns", "N", options->columns, "plots side by side, 1 to 6; 1 without it");
+  arguments.flag("--graph", options->graph,
+                 "draw the graphs instead: how poses are made, and machines with their states");
   arguments.flag("--portrait", options->portrait,
-                 "phase portraits of the systems instead: one number over another, with directions and energy");
-  arguments.flag("--no-rates", options->no_rates, "values alone, without their rates below");
+                 "draw phase portraits of the systems instead, with directions and energy");
+  arguments.flag("--no-rates", options->no_rates, "only values, without their rates below");
   return [options] { return plot_file(*options); };
 }
 

@@ -89,7 +89,7 @@ std::string joints_table(const Recording& recording) {
   return table.empty() ? "" : table.text(styled_output());
 }
 
-/// What stays behind of particles in a .glb.
+/// Says how many particles a .glb leaves out.
 void say_thinned(const Recording& recording) {
   for (const ParticlesRecord& particles : recording.particles) {
     std::size_t most = 0;
@@ -136,10 +136,9 @@ Run declare_run(Arguments& arguments) {
   declare_amount(arguments, *options);
   arguments.text("-o,--output", "OUT", options->output,
                  "the recording: .json .csv .svg .html or .glb; - prints the JSON; without it a summary");
-  arguments.text("--inputs", "FILE", options->inputs_file,
-                 "timed inputs, JSON: what plays, vehicles and bodies are asked for while it runs");
+  arguments.text("--inputs", "FILE", options->inputs_file, "JSON file of timed inputs to plays, vehicles and bodies");
   arguments.number("--threads", "N", options->threads,
-                   "threads that share a step of physics; not a bit of the recording depends on it");
+                   "threads that share a step of physics; the recording is the same with any number");
   arguments.flag("--json", options->json, "print the recording as JSON");
   return [options] { return run_file(*options); };
 }

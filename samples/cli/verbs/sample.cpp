@@ -28,9 +28,9 @@ struct SampleOptions {
 };
 
 std::vector<double> times_of(const SampleOptions& options, const Clip& clip) {
-  if (!options.at.empty() && options.fps) throw UsageError("either --at or --fps says when, not both");
+  if (!options.at.empty() && options.fps) throw UsageError("use either --at or --fps, not both");
   if (options.at.empty() && !options.fps) throw UsageError("say when: --at 0,0.5,1 or --fps 30");
-  if (options.until && !options.fps) throw UsageError("--until belongs to --fps");
+  if (options.until && !options.fps) throw UsageError("--until needs --fps");
   if (options.world && std::any_of(options.at.begin(), options.at.end(), [](double time) { return time < 0; }))
     throw UsageError("--world has no time before 0");
   if (!options.fps) return options.at;
@@ -131,7 +131,7 @@ int sample_file(const SampleOptions& options) {
   const StageFile read = read_stage_file(options.file);
   StageDescription stage = read.stage;
   if (stage.clips.empty() && !options.clip) {
-    say(options.file + ": note: there is no clip in it; what rests is told");
+    say(options.file + ": note: there is no clip in it; this is its rest pose");
     stage.clips.emplace_back();
   }
   const std::size_t index = choose_clip(stage, options.clip, options.file);
@@ -154,13 +154,13 @@ Run declare_sample(Arguments& arguments) {
   arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
   arguments.text("--clip", "NAME", options->clip, "the clip; needed when there are several");
   arguments.numbers("--at", "T,T,...", options->at,
-                    "times on the clip's timeline, s; where it jumps or bends, the side that leaves");
+                    "times on the clip's timeline, s; at a jump or a bend, the values just after it");
   arguments.number("--fps", "N", options->fps, "every 1/N s from 0 to the clip's end, both included");
   arguments.number("--until", "T", options->until, "with --fps: to T instead of the clip's end, s");
   arguments.texts("--track", "NAME", options->tracks,
-                  "only this track, or those of a pattern like \"arm.*\"; again for more");
-  arguments.flag("--rates", options->rates, "rates too: per second; of rotations angular velocity, rad/s");
-  arguments.flag("--world", options->world, "world matrices of the nodes too (with --json 16 numbers, column-major)");
+                  "only this track, or those of a pattern like \"arm.*\"; may be repeated");
+  arguments.flag("--rates", options->rates, "also rates, per second; for rotations the angular velocity, rad/s");
+  arguments.flag("--world", options->world, "also world matrices of the nodes (with --json 16 numbers, column-major)");
   arguments.flag("--json", options->json, "one JSON object for tools");
   return [options] { return sample_file(*options); };
 }

@@ -1,4 +1,4 @@
-// tweenfall schema: what editors complete documents from.
+// tweenfall schema: the schema by which editors complete documents.
 
 #include "report/terminal.h"
 #include "verbs/verbs.h"

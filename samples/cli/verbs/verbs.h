@@ -1,12 +1,13 @@
 #pragma once
 
-/// The verbs, one file each, which ends with the verb itself: name, summary, example, and what declares its arguments.
+/// The verbs, one file each, which ends with the verb itself: name, summary, example, and the function that declares
+/// its arguments.
 
 #include "line/arguments.h"
 
 #include <span>
 
-/// One row per verb, in the order of the help: check_verb stands at the end of check.cpp.
+/// One row per verb, in the order of the help: check_verb is defined at the end of check.cpp.
 #define TWEENFALL_VERBS(ROW) \
   ROW(check)                 \
   ROW(inspect)               \

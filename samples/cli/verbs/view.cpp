@@ -17,7 +17,7 @@ struct ViewOptions : RunOptions {
   std::string other;  ///< a second file, shown beside the first
 };
 
-/// One of the files, run.
+/// One of the files, after its run.
 struct Viewed {
   StageFile read;
   Recording recording;
@@ -30,7 +30,7 @@ Viewed viewed(const RunOptions& options) {
   const std::size_t frames = recording.times.size(), carried = page_frame_count(recording);
   if (carried < frames)
     say(options.file + ": note: too much for one page: of " + counted(frames, "frame") + " it carries " +
-        std::to_string(carried) + ", with smooth motion between them; for all of them a shorter --until");
+        std::to_string(carried) + ", with smooth motion between them; a shorter --until keeps all of them");
   return {std::move(read), std::move(recording)};
 }
 
