@@ -14,9 +14,8 @@ struct Meeting {
 
 [[nodiscard]] Meeting meeting_of(double gap, double closing, double pull, double span);
 
-/// Closing acceleration without contacts, and the speed below which a rebound would be mere jitter: the speed that
-/// gravity gives in a step or two. Two bodies that fall together do not close, but what lies under them makes them
-/// jitter.
+/// Closing acceleration without contacts, and the speed below which a rebound would be mere jitter: what gravity gives
+/// in a step or two. Two bodies that fall together do not close, but what lies under them makes them jitter.
 struct Closing {
   double pull, tremble;
 };

@@ -13,8 +13,7 @@ struct DriveLaw {
   Vec3 angular{0, 0, 0};  ///< the same for rotation, rad/s
 };
 
-/// @param target_ahead  time from the end of this (sub-)step to the target's, s; the target is moved back along its
-/// twist
+/// @param target_ahead  time from the end of this (sub-)step to the target's, s; its twist moves the target back by it
 [[nodiscard]] DriveLaw drive_law(const state::Body& body, const Vec3& center, const Quat& rotation, double h,
                                  double target_ahead);
 

@@ -27,8 +27,7 @@ struct FigureBody {
   blocks::Lanes3 spin;  ///< as far as the bend of its path can be followed, rad/s
 };
 
-/// How the rows of a joint are written: one lane after the other, by the functions of its kind; or in all lanes at
-/// once.
+/// How the rows of a joint are written: lane by lane, by the functions of its kind; or in all lanes at once.
 enum class Writing : std::uint8_t { by_kind, point, limb };
 
 /// The input for rows written in lanes. Swing and twist are those of a `SwingTwistJoint`.

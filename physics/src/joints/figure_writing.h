@@ -225,8 +225,7 @@ struct FigureWriting : FigureFactors<Register> {
     };
     const Number cone = in_reach(slopes, gap);
     write_bound(figures, place, rule, negative(axis_of(b, swing, side_y, side_z)), gap, cone, row_of_cone);
-    // At the ends of a narrow ellipse, a single row turns from side to side and lets the limb slip past: two more cut
-    // them off.
+    // At the ends of a narrow ellipse one row flips from side to side and the limb slips past: two more cut them off.
     const Number most = greater(most_y, most_z);
     const Number narrow = near * one_if(lesser(most_y, most_z) < number(narrow_ellipse) * most);
     const Number along_y = one_if(most_y > most_z), along_z = number(1) - along_y;

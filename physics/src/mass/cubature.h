@@ -8,8 +8,7 @@
 
 namespace tweenfall::mass {
 
-/// Integrals of density, density times position, and density times products of position: 1; x, y, z; xx, yy, zz, xy,
-/// yz, zx.
+/// Integrals of density times products of coordinates: 1; x, y, z; xx, yy, zz, xy, yz, zx.
 using Moments = std::array<double, 10>;
 
 struct Summed {

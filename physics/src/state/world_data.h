@@ -74,8 +74,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void find_contacts_of_parts(const contacts::PairInContact& pair, contacts::PairMemories known, double dt,
                               contacts::FoundPart& part) const;
   void find_obstacles();  ///< among the contacts
-  /// Keeps bodies that a step has deflected or made fast from ending behind a mesh or height field that they were in
-  /// front of.
+  /// Keeps bodies that a step deflected or made fast from ending behind a mesh or height field they were in front of.
   void hold_before_surfaces();
   void hold_before_walls(double dt);
   void gather_links();             ///< joints that hold something that can move

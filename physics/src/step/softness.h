@@ -21,8 +21,7 @@ struct Softness {
 /// Source: Catto, Solver2D, 2024 (soft contacts).
 /// @param parts  how often `dt` fits into the whole step: contacts are as soft as in the whole step, or resting bodies
 /// would settle anew in each part
-/// @param cycles  of a contact's spring in a sub-step: the depth to which a load presses it in goes with their inverse
-/// square
+/// @param cycles  of a contact's spring in a sub-step: a load presses it in by their inverse square
 [[nodiscard]] inline Softness soft_contacts(double push_out_speed, double dt, int sub_steps, double parts = 1,
                                             double cycles = 0.125) {
   constexpr double damping = 10;  // ratio

@@ -11,8 +11,7 @@ namespace tweenfall::cli {
 /// @throws UsageError if `output` has none of the endings (unless it is "-"), or is the file that was read.
 void require_output(const std::string& output, const std::string& input, std::span<const std::string> endings);
 
-/// Writes a new file beside `file` and then replaces `file` by it; "-" prints. @throws std::runtime_error naming the
-/// file.
+/// Writes a new file and puts it in the place of `file`; "-" prints. @throws std::runtime_error naming the file.
 void write_output(const std::string& file, std::string_view content);
 
 /// Prints the line that says what was written and what it shows; on stderr if stdout holds the result itself.

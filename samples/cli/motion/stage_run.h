@@ -32,9 +32,8 @@ void declare_amount(Arguments& arguments, RunOptions& options);
 /// Checks the options as far as possible before a file is read. @throws UsageError
 void require_amount(const RunOptions& options);
 
-/// Runs from 0, with progress on a terminal. If no frame rate was asked for, there are fewer frames than usual when
-/// those would take more than the limit; a note says so, and another one if the run ends before everything has been
-/// shown.
+/// Runs from 0, with progress on a terminal. If no frame rate was asked for, there are fewer frames when the usual ones
+/// would exceed the limit; a note says so, and another one if the run ends before everything has been shown.
 /// @throws UsageError for impossible times, or for more than the limit; Faults from the run.
 [[nodiscard]] Recording run_stage(const StageDescription& description, const RunOptions& options);
 

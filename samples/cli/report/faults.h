@@ -20,8 +20,7 @@ class Faults : public std::runtime_error {
   std::vector<std::string> texts_;
 };
 
-/// The texts of an exception from a library, for a document followed by its notes; `source` precedes those that name no
-/// file.
+/// The texts of a library's exception, for a document followed by its notes; `source` precedes those without a file.
 [[nodiscard]] std::vector<std::string> faults_of(const std::exception& error, const std::string& source);
 
 /// How many there are: a document with very many faults has more than it has texts.

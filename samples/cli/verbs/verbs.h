@@ -1,7 +1,6 @@
 #pragma once
 
-/// The verbs, one file each, which ends with the verb itself: name, summary, example, and the function that declares
-/// its arguments.
+/// The verbs, one file each, which ends with the verb itself: name, summary, example, function that declares arguments.
 
 #include "line/arguments.h"
 

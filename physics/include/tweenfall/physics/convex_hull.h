@@ -1,7 +1,6 @@
 #pragma once
 
-/// Convex hulls: the smallest convex solid around points, as a polyhedron of polygons. Physics collides with it in
-/// place of a mesh.
+/// Convex hulls: the smallest convex solid around points, as a polyhedron. Physics collides with it in place of a mesh.
 
 #include <tweenfall/curves/surface_mesh.h>
 

@@ -18,9 +18,8 @@ namespace tweenfall {
 /// @param rates  the output; as long as the state
 using FirstOrder = std::function<void(double time, std::span<const double> state, std::span<double> rates)>;
 
-/// Advances a system by steps. Some integrators treat positions and velocities differently: `verlet`,
-/// `semi_implicit_euler`, and `exact_quadratic`, which is `verlet` here. For these, the first half of the state is
-/// positions, the second half their velocities.
+/// Advances a system by steps. For integrators that treat positions and velocities differently (`exact_quadratic`,
+/// which is `verlet` here, `verlet`, `semi_implicit_euler`) the state is first all positions, then all velocities.
 class FirstOrderStepper {
  public:
   /// @param state  at the start

@@ -29,8 +29,7 @@ struct Ellipsoid {
 // Mass given
 
 /// Of a system of points: c = sum m r / sum m, and the inertia about it.
-/// @throws std::invalid_argument for no points, and naming the point for a mass not > 0 or a position that is not
-/// finite.
+/// @throws std::invalid_argument for no points, or naming the point for a mass not > 0 or a position that is not finite
 [[nodiscard]] MassProperties mass_properties(std::span<const PointMass> points);
 
 [[nodiscard]] double volume(const Ellipsoid& ellipsoid) noexcept;  ///< m^3

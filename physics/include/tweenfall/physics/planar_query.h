@@ -42,8 +42,7 @@ struct ShapeHit {
   bool inside = false;  ///< the two overlap from the start; the normal is then the shortest way out
 };
 
-/// How far `moving` gets, without turning, until it hits `shape`. Shapes that touch and part, or slide along, do not
-/// hit.
+/// How far `moving` gets, without turning, until it hits `shape`. Touching and parting, or sliding along, is no hit.
 /// @throws std::invalid_argument also for two half-planes
 [[nodiscard]] std::optional<ShapeHit> cast_shape(const Shape& moving, const Place& start, const Vec2& displacement,
                                                  const Shape& shape, const Place& place);

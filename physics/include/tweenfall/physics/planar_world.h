@@ -124,8 +124,7 @@ class World {
 
   // Changes; each wakes the body, except forces that stay the same
   void set_motion(BodyId body, const Motion& motion);
-  /// Hands the body over to another drive. A body that leaves `keyed` keeps the position and velocity of its last
-  /// target.
+  /// Hands the body over to another drive. Leaving `keyed`, it keeps the position and velocity of its last target.
   void set_drive(BodyId body, const Drive& drive);
   /// Where a keyed body must be at the end of the next step, and the velocity of its path there: it then has exactly
   /// these numbers. For a driven body, where its spring pulls it.

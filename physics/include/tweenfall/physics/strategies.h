@@ -35,9 +35,8 @@ enum class Parting : std::uint8_t {
 enum class Detection : std::uint8_t {
   ahead,     ///< at the start of the step, as far ahead as it goes (the default)
   discrete,  ///< when they overlap at the end of the step: fast thin bodies pass through
-  /// At the instant when they meet: the world advances to it, responds, and continues through the rest of the step.
-  /// After 4096 instants in one step, or 8 collisions of two bodies at one instant, all that still meets is solved
-  /// together.
+  /// When they meet: the world advances to that instant, responds, and continues through the rest of the step. After
+  /// 4096 instants in a step, or 8 collisions of two bodies at one instant, all that still meets is solved together.
   time_of_impact,
 };
 

@@ -98,14 +98,15 @@ struct BodySettings {
   double restitution = 0;  ///< 0 to 1; a pair takes the larger unless told otherwise
   Combine friction_combine = Combine::usual;
   Combine restitution_combine = Combine::usual;
-  double rolling_friction = 0;   ///< resistance to rolling, as a length: torque <= length times normal force, m
-  double spinning_friction = 0;  ///< the same for the torque about the normal alone; a pair takes the larger, m
-  Twist surface_velocity = {};   ///< of the surface relative to the body, at its center of mass, node axes
-  bool sensor = false;           ///< reports what overlaps it, but neither pushes nor is pushed
-  double linear_damping = 0;     ///< 1/s
-  double angular_damping = 0;    ///< 1/s
-  bool fixed = false;            ///< part of the scenery: never moves
-  std::uint64_t groups = 1;      ///< the groups it belongs to, one bit each
+  double rolling_friction = 0;  ///< resistance to turning, as a length: torque <= length times normal force, m
+  double spinning_friction =
+      0;                        ///< in addition, only against turning about the normal; a pair takes the larger ones, m
+  Twist surface_velocity = {};  ///< of the surface relative to the body, at its center of mass, node axes
+  bool sensor = false;          ///< reports what overlaps it, but neither pushes nor is pushed
+  double linear_damping = 0;    ///< 1/s
+  double angular_damping = 0;   ///< 1/s
+  bool fixed = false;           ///< part of the scenery: never moves
+  std::uint64_t groups = 1;     ///< the groups it belongs to, one bit each
   std::uint64_t collides_with =
       ~std::uint64_t{0};  ///< groups; two bodies meet when each collides with a group of the other
   Drive drive = Drive::free();
@@ -136,8 +137,7 @@ struct SensorOverlap {
   bool began = false;  ///< the body was not in the sensor at the end of the step before
 };
 
-/// Thrown when the position or velocity of a body is no longer a number, or exceeds 1e30 m, m/s or rad/s, or when a
-/// force on it is not finite.
+/// Thrown when a body's position or velocity is no number or exceeds 1e30 m, m/s or rad/s, or a force is not finite.
 class NotFinite : public std::runtime_error {
  public:
   NotFinite(BodyId body, double time, const std::string& cause);
@@ -259,8 +259,7 @@ class World {
   /// Pairs that touched before the last step and not in it, or that lost a body before it. A contact that is among
   /// `contacts` and did not begin has persisted.
   [[nodiscard]] std::span<const EndedContact> ended_contacts() const noexcept;
-  /// Bodies that were in sensors at the end of the last step, awake or asleep, by index of the sensor and then of the
-  /// body.
+  /// Bodies in sensors at the end of the last step, awake or asleep, by index of the sensor and then of the body.
   [[nodiscard]] std::span<const SensorOverlap> sensor_overlaps() const noexcept;
   /// Bodies that were in sensors one step earlier and were not any more, or were removed.
   [[nodiscard]] std::span<const SensorOverlap> ended_sensor_overlaps() const noexcept;

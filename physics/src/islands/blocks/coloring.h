@@ -11,8 +11,7 @@ namespace tweenfall::blocks {
 /// Source: Catto, SIMD Matters, 2024.
 class Coloring {
  public:
-  /// Colors of contacts between two movable bodies come first, then those with one: immovable bodies have the last
-  /// word.
+  /// Colors of contacts of two movable bodies come first, then those with one: immovable bodies have the last word.
   static constexpr std::uint32_t half = 64;
   /// From here on there are as many colors as needed, for contacts of either sort whose bodies have used up the others.
   static constexpr std::uint32_t late = 2 * half;

@@ -9,8 +9,7 @@
 
 namespace tweenfall::blocks {
 
-/// What holds bodies of an island besides contacts and joints, one by one: drives, stiff springs, resistance to
-/// rolling.
+/// What holds bodies of an island besides contacts and joints: drives, stiff springs, resistance to rolling.
 class IslandHolds {
  public:
   /// Softens the pull of drives without a limit, so that contacts and joints have to move what they hold, too.

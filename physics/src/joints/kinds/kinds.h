@@ -51,8 +51,7 @@ void write_rows(const SpringJoint& kind, state::Joint& joint, const Placement& a
 constexpr double narrowest_swing = 1e-3;
 /// Ratio of an ellipse's axes below which its ends are too sharp, and are cut off.
 constexpr double narrow_ellipse = 0.5;
-/// Rows of a `SwingTwistJoint`, after those of its point. Bounds come in pairs, the lower first; a cone has an upper
-/// one.
+/// Rows of a `SwingTwistJoint`, after those of its point. Bounds are pairs, the lower first; the cone is an upper one.
 constexpr std::uint8_t row_of_cone = 4, row_of_end = 5, row_of_twist = 7;
 
 /// The value of an angle within -pi to pi that is nearest to the last one, whole turns included.

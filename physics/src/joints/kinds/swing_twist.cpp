@@ -90,8 +90,7 @@ void bound_swing(const SwingTwistJoint& kind, state::Joint& joint, const Placeme
   } else {
     rows.idle(2);
   }
-  // At the ends of a narrow ellipse, a single row turns from side to side and lets the limb slip past: two more cut
-  // them off.
+  // At the ends of a narrow ellipse one row flips from side to side and the limb slips past: two more cut them off.
   const double most = std::max(y, z);
   if (std::min(y, z) < narrow_ellipse * most) {
     const Vec3 longer = Vec3::Unit(y > z ? 1 : 2);

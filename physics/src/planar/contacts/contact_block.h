@@ -34,8 +34,7 @@ struct ContactBlock {
   int points = 0;
   Lanes normal_x, normal_y;
   Lanes friction;
-  Lanes ahead;  ///< the share of a gap that may be closed per second while nothing presses: rebounding contacts are not
-                ///< held
+  Lanes ahead;  ///< share of a gap that may be closed per second while nothing presses: rebounds are not held
   Lanes inverse_mass_a, inverse_mass_b, inverse_moment_a, inverse_moment_b;
   PointRow point[2];
 };

@@ -12,8 +12,7 @@ namespace tweenfall::staging {
 
 /// Adds the description's vehicles. Impossible ones are faults.
 void add_vehicles(StageState& state, const StageDescription& description, std::vector<StageFault>& faults);
-/// From now on. @throws std::invalid_argument with the nearest name, for numbers that are not finite, and for an empty
-/// control
+/// From now on. @throws std::invalid_argument with the nearest name, for numbers not finite, and for an empty control
 void control_vehicle(StageState& state, std::string_view name, const VehicleControl& control);
 /// Lets wheels act on the world's next step of `dt` seconds.
 void drive_vehicles(StageState& state, double dt);

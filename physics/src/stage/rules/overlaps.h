@@ -12,8 +12,7 @@ namespace tweenfall::staging {
 /// that it may meet.
 [[nodiscard]] std::vector<BodyId> bodies_in(const StageState& state, const StagedBody& body, const Pose& pose);
 
-/// The last time before `instant`, by at most `within`, at which the path was clear of all others at their present
-/// poses.
+/// The last time before `instant`, by at most `within`, at which the path was clear of all others as they are now.
 [[nodiscard]] std::optional<double> last_clear(const StageState& state, const StagedBody& body, double instant,
                                                double within, double step);
 

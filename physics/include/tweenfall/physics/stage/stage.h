@@ -154,8 +154,7 @@ class Stage {
   // Plays, at exactly `time()`; `seek` repeats what was asked
   /// Starts, stops, fades, weighs, re-speeds or seeks a play: see `PlayAction`. Keyed bodies follow their paths across.
   /// @param play  name of the play, or else of its clip
-  /// @throws std::invalid_argument for an impossible request, and for unknown names with the nearest; nothing has
-  /// changed
+  /// @throws std::invalid_argument for an impossible request, or an unknown name; nothing has changed then
   void ask(std::string_view play, PlayAction action);
 
   // Graphs, likewise
@@ -201,9 +200,8 @@ class Stage {
   [[nodiscard]] std::span<const HandOff> handoffs() const noexcept;   ///< up to `time()`
   [[nodiscard]] std::span<const StageEvent> events() const noexcept;  ///< up to `time()`, contacts included
 
-  /// What has not fired until now, by node and then by rule, with the reason: never touched, not as hard as asked for,
-  /// no such marker, time still to come. A pattern counts for each of its bodies. What fired but still has a change to
-  /// come says so.
+  /// What has not fired until now, by node and then by rule, with the reason: not touched, or not hard enough, no such
+  /// marker, time still to come. A pattern counts for each body. What fired but has a change to come says so.
   [[nodiscard]] std::vector<UnfiredRule> unfired_rules() const;
 
   /// A number that changes when any bit of any body, soft body, wheel or particle does, at the next instant or step
