@@ -1,6 +1,6 @@
 #pragma once
 
-// What is attacked: each kind makes case number n from a seed alone, so that any case can be run again by its number.
+// The targets of attacks: each kind makes case number n from a seed alone, so that it can be repeated by its number.
 
 #include "random.h"
 
@@ -17,13 +17,13 @@ using test::Random;
 class Attack {
  public:
   virtual ~Attack() = default;
-  /// Runs case `number`. @returns what went wrong, in a sentence; empty when all held. A crash ends the process.
+  /// Runs case `number`. @returns what went wrong, in a sentence; empty if nothing did. A crash ends the process.
   [[nodiscard]] virtual std::string run(std::uint64_t number) = 0;
-  /// What case `number` feeds to the program, to be looked at.
+  /// What case `number` feeds to the program, for inspection.
   [[nodiscard]] virtual std::string show(std::uint64_t number) = 0;
-  /// How many cases so far were taken as valid, and so went all the way.
+  /// How many cases so far were valid, and so were run to the end.
   [[nodiscard]] std::uint64_t taken() const { return taken_; }
-  /// How many cases there are; 0 where they never end.
+  /// How many cases there are; 0 if they never end.
   [[nodiscard]] virtual std::uint64_t size() const { return 0; }
 
  protected:
@@ -31,11 +31,11 @@ class Attack {
 };
 
 std::unique_ptr<Attack> attack_documents(std::uint64_t seed);
-/// Each document of the samples, the tests and ../shared once, as it is.
+/// Each document of the samples, the tests and ../shared once, unchanged.
 std::unique_ptr<Attack> attack_unchanged();
-/// Documents with graphs, of which nothing else is changed.
+/// Documents with graphs, in which only the graphs are changed.
 std::unique_ptr<Attack> attack_graphs(std::uint64_t seed);
-/// Files of inputs, given to the stages that they are for.
+/// Files of inputs, given to the stages they belong to.
 std::unique_ptr<Attack> attack_inputs(std::uint64_t seed);
 /// The same documents, given to the command.
 std::unique_ptr<Attack> attack_commands(std::uint64_t seed);
@@ -43,13 +43,13 @@ std::unique_ptr<Attack> attack_commands(std::uint64_t seed);
 std::unique_ptr<Attack> attack_models(std::uint64_t seed, const std::string& ending);
 std::unique_ptr<Attack> attack_stage(std::uint64_t seed);
 
-/// The bytes of a file; none where it cannot be read.
+/// The bytes of a file; empty if it cannot be read.
 [[nodiscard]] std::string bytes_of(const std::filesystem::path& file);
 
-/// A folder for what a process writes; it goes when the process does.
+/// A folder for what a process writes; it is removed with the process.
 [[nodiscard]] std::filesystem::path folder_of_process(long process);
 
-/// The numbers of one case.
+/// The random numbers of one case.
 inline Random random_of(std::uint64_t seed, std::uint64_t number) {
   return Random(seed * 0x9e3779b97f4a7c15u ^ (number + 1) * 0xd1342543de82ef95u);
 }

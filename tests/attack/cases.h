@@ -1,6 +1,6 @@
 #pragma once
 
-// The documents that cases are made of.
+// The documents from which cases are made.
 
 #include "attack/attack.h"
 
@@ -23,7 +23,7 @@ struct ChangedDocument {
 /// Documents of the samples, the tests and ../shared, changed by structure and by byte.
 class ChangedDocuments {
  public:
-  /// @param part  where given, only documents that have this member are taken, and only it is changed, by structure
+  /// @param part  if given, only documents with this member are taken, and only it is changed, by structure
   explicit ChangedDocuments(std::uint64_t seed, std::string part = {});
   [[nodiscard]] ChangedDocument make(std::uint64_t number) const;
 

@@ -1,4 +1,4 @@
-// Changed documents given to the command itself: its verbs agree on what is valid, and all they say is text.
+// Changed documents given to the command itself: its verbs agree on what is valid, and everything they print is text.
 
 #include "attack/cases.h"
 #include "attack/mutation.h"
@@ -64,8 +64,8 @@ class Commands final : public Attack {
     std::string said;
   };
 
-  /// What a valid document may be refused for all the same: there is nothing of what was asked for, too much of it, or
-  /// the run itself ended.
+  /// Reasons for which a valid document may still be refused: it has nothing of what was asked for, or too much of it,
+  /// or the run itself ended.
   static bool is_about_the_request(const std::string& said) {
     for (const char* words : {"is no longer finite at", "are allowed", "there is no clip", "there is no track",
                               "several clips", "--until", "--limit", "--fps", "--clip"}) {

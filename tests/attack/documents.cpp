@@ -19,7 +19,7 @@ std::string fault_of(const DocumentError& error) {
   return {};
 }
 
-/// Parsed, written again, run and written in every form. TAKEN counts the valid.
+/// Parses it, writes it again, runs it and writes it in every form. TAKEN counts the valid ones.
 std::string fault_of_document(const ChangedDocument& made, std::uint64_t& taken) {
   try {
     const Document document = Document::parse(made.text, "attack.json", made.folder);

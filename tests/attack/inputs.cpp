@@ -1,5 +1,5 @@
-// Files of inputs changed by structure and by byte: each is refused with its places, or given to the stage that it is
-// for while that runs; written again it is the same.
+// Files of inputs changed by structure and by byte: each is refused with its places, or given to its stage while that
+// runs; written again it is the same.
 
 #include "attack/mutation.h"
 #include "attack/shown.h"
@@ -21,7 +21,7 @@ class Inputs final : public Attack {
     const auto stage_of = [&](const char* name) { return Document::read(source / "samples/documents" / name).stage(); };
     told_.push_back({stage_of("stroller.json"), bytes_of(source / "samples/inputs/stroller.json")});
     told_.push_back({stage_of("crane.json"), bytes_of(source / "samples/inputs/crane.json")});
-    // All that may be asked of plays.
+    // Everything that may be asked of plays.
     told_.push_back({stage_of("crane.json"), R"({"tweenfall": 1, "inputs": [
       {"at": 0.5, "seek": {"play": "slew", "to": 0.5, "fade": 0.2, "events": true}},
       {"at": 0.9, "fade": {"play": "sway", "weight": 0.4, "seconds": 0.2, "ease": "quad-in-out"}},
@@ -64,7 +64,7 @@ class Inputs final : public Attack {
     std::string text = told.inputs;
     if (below(random, 5) != 0) {
       nlohmann::ordered_json inputs = nlohmann::ordered_json::parse(text, nullptr, false, true);
-      // What comes late comes early, so that a short run meets it.
+      // Late inputs are moved earlier, so that a short run reaches them.
       for (auto& input : inputs["inputs"]) input["at"] = 0.3 * input["at"].get<double>();
       mutate_structure(random, inputs);
       return {&told.stage, inputs.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)};

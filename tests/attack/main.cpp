@@ -2,8 +2,8 @@
 // attack KIND --show K [--seed S]                            print what case K feeds to the program
 //
 // KIND: documents, unchanged, graphs, inputs, commands, stage, or the ending of models: .gltf, .glb, .fbx, .bvh, .dae,
-// .obj A case that crashes, takes more than 10 s of a processor, 100 s of the clock or 4 GB is told by its number, and
-// the run goes on behind it.
+// .obj. A case that crashes, takes more than 10 s of a processor, 100 s of the clock or 4 GB is reported by its number,
+// and the run continues after it.
 
 #include "attack/attack.h"
 
@@ -29,8 +29,8 @@ namespace tweenfall::attack {
 
 namespace {
 
-constexpr double most_seconds = 10;         // of a processor: on a crowded machine all takes long
-constexpr double most_clock_seconds = 100;  // what waits, or is done by programs that a case starts
+constexpr double most_seconds = 10;         // of a processor: on a crowded machine everything takes long
+constexpr double most_clock_seconds = 100;  // for waiting, and for programs that a case starts
 constexpr rlim_t most_bytes = rlim_t{4} << 30;
 
 std::unique_ptr<Attack> attack_of(const std::string& kind, std::uint64_t seed) {
@@ -43,9 +43,9 @@ std::unique_ptr<Attack> attack_of(const std::string& kind, std::uint64_t seed) {
   return attack_models(seed, kind);
 }
 
-/// What a worker tells its parent, in memory that both see.
+/// What a worker reports to its parent, in memory that both share.
 struct Progress {
-  std::atomic<std::uint64_t> next{0};  ///< the case it is at
+  std::atomic<std::uint64_t> next{0};  ///< the present case
   std::atomic<std::uint64_t> faults{0};
   std::atomic<std::uint64_t> most_kilobytes{0};
   std::atomic<std::uint64_t> taken{0};
@@ -95,7 +95,7 @@ struct Result {
   std::uint64_t faults = 0, taken = 0, most_kilobytes = 0;
 };
 
-/// Memory that a process and those that it starts see alike.
+/// Memory shared by a process and those it starts.
 template <class T>
 T* shared(std::size_t count) {
   void* memory = mmap(nullptr, count * sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -104,7 +104,7 @@ T* shared(std::size_t count) {
   return first;
 }
 
-/// Runs one worker until its cases are through, over crashes and hangs.
+/// Runs one worker until its cases are done, over crashes and hangs.
 Result watch(const std::string& kind, std::uint64_t seed, std::uint64_t from, std::uint64_t to, std::uint64_t stride) {
   Progress* const progress = shared<Progress>(1);
   Result result;
@@ -174,7 +174,7 @@ int run(int argc, char** argv) {
   if (const std::uint64_t size = attack_of(kind, seed)->size(); size > 0)
     count = std::min(counting->count() ? count : size, size - std::min(from, size));
 
-  // Processes and no threads: what starts a process while another thread asks for memory leaves it a lock for ever.
+  // Processes rather than threads: forking while another thread allocates memory leaves the child a lock forever.
   Result* const results = shared<Result>(jobs);
   std::vector<pid_t> watchers;
   for (unsigned job = 0; job < jobs; ++job) {

@@ -106,7 +106,7 @@ class Models final : public Attack {
       const std::filesystem::path place = std::filesystem::path(TWEENFALL_SOURCE_DIR) / folder;
       if (!std::filesystem::exists(place)) continue;
       for (const auto& entry : std::filesystem::recursive_directory_iterator(place)) {
-        // What is refused as it is would seldom be taken when changed.
+        // A model that is refused unchanged would seldom be accepted when changed.
         if (entry.path().string().find("malformed") != std::string::npos) continue;
         if (entry.path().extension() == ending && entry.file_size() < 2'000'000) files_.push_back(entry.path());
       }
@@ -160,7 +160,7 @@ class Models final : public Attack {
     return {bytes, from};
   }
 
-  /// A folder of our own that shows all that stands beside `file`: buffers, images, materials.
+  /// A folder of our own that contains everything beside `file`: buffers, images, materials.
   std::filesystem::path beside_its_companions(const std::filesystem::path& file) const {
     const auto number = static_cast<std::size_t>(std::find(files_.begin(), files_.end(), file) - files_.begin());
     std::filesystem::path folder = folder_ / std::to_string(number);
@@ -192,7 +192,7 @@ class Models final : public Attack {
     }
   }
 
-  /// What is written as binary glTF is read again.
+  /// Reads again what is written as binary glTF.
   std::string fault_of_copy(const Model& model) const {
     const std::filesystem::path copy = folder_ / "copy.glb";
     try {

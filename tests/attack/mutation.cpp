@@ -37,7 +37,7 @@ namespace {
 
 constexpr std::string_view of_numbers = "0123456789+-.eE";
 
-/// Another number in place of one that is written out; nothing where there is none.
+/// Replaces a number written as text by another; does nothing if there is none.
 void mutate_number(Random& random, std::string& bytes) {
   const std::size_t from = bytes.find_first_of("0123456789", below(random, bytes.size()));
   if (from == std::string::npos) return;
@@ -49,7 +49,7 @@ void mutate_number(Random& random, std::string& bytes) {
   bytes.replace(begin, end - begin, text);
 }
 
-/// Another number in place of one that stands in its bits.
+/// Replaces a binary number by another.
 void mutate_bits(Random& random, std::string& bytes) {
   const double number = odd_number(random, true);
   const std::size_t at = below(random, bytes.size()) & ~std::size_t{3};
@@ -79,7 +79,7 @@ void mutate_bytes(Random& random, std::string& bytes) {
       continue;
     }
     if (below(random, 3)) {
-      // Most changes leave the form as it is: another digit, or another byte of a number.
+      // Most changes keep the form: another digit, or another byte of a number.
       std::size_t digit = bytes.find_first_of("0123456789", below(random, bytes.size()));
       if (digit == std::string::npos) digit = below(random, bytes.size());
       bytes[digit] = static_cast<char>('0' + below(random, 10));
@@ -127,7 +127,7 @@ void mutate_bytes(Random& random, std::string& bytes) {
 
 namespace {
 
-/// All places of a document, the whole first.
+/// All places of a document, starting with the whole.
 void gather(Json& value, std::vector<Json*>& places) {
   places.push_back(&value);
   if (value.is_structured()) {
@@ -234,7 +234,7 @@ void mutate_structure(Random& random, Json& document) {
         if (place.is_array()) place.push_back(odd_value(random));
         break;
       default:
-        // Numbers are what documents hold most of, and what they fail by.
+        // Documents hold mostly numbers, and fail mostly by them.
         for (std::size_t tries = 0; tries < 20; ++tries) {
           Json& number = *places[below(random, places.size())];
           if (!number.is_number()) continue;

@@ -10,13 +10,13 @@
 
 namespace tweenfall::attack {
 
-/// A number that programs stumble over: zero, tiny, huge, negative, not a number where `hostile`.
+/// A number that programs stumble over: zero, tiny, huge, negative, or not a number if `hostile`.
 double odd_number(Random& random, bool hostile = false);
 
-/// Some bytes changed, dropped, put in, repeated or moved.
+/// Changes, drops, inserts, repeats or moves some bytes.
 void mutate_bytes(Random& random, std::string& bytes);
 
-/// Some values of a document changed for others, dropped, copied elsewhere, renamed or repeated.
+/// Changes some values of a document for others, drops, copies, renames or repeats them.
 void mutate_structure(Random& random, nlohmann::ordered_json& document);
 
 /// From 0 to below `count`.

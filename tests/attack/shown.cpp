@@ -14,7 +14,7 @@ namespace tweenfall::attack {
 
 namespace {
 
-/// All that a picture or a table may show in words: names may be any, also such as numbers that are none.
+/// All words that a picture or a table may show: names may be anything, including words for numbers such as nan.
 std::string names_in(const StageDescription& stage) {
   std::string names = stage.name;
   for (const NodeDescription& node : stage.nodes) names += "\n" + node.name;
@@ -36,10 +36,10 @@ std::string fault_of_run(const StageDescription& description, double seconds, st
     const double until = inputs.empty() ? std::min(seconds, natural_length(description)) : seconds;
     recording = record(stage, until, 30, 1e9, false, inputs);
   } catch (const NodeNotFinite& fault) {
-    // Said with node, time and cause: what a run may end with.
+    // A run may end with this if it names node, time and cause.
     return fault.cause.empty() || !is_utf8(fault.what()) ? "a run ends without a cause" : "";
   } catch (const std::invalid_argument& error) {
-    // More than a recording may hold is no fault of the stage.
+    // A recording that would be too large is not the stage's fault.
     if (std::string_view(error.what()).find("are allowed: end it earlier") != std::string_view::npos) return {};
     if (!inputs.empty()) return is_utf8(error.what()) ? "" : "an input is refused in what is not UTF-8";
     throw;

@@ -10,10 +10,10 @@
 
 namespace tweenfall::attack {
 
-/// What is wrong with any form of the first moments of a stage: a NaN, or bytes that are not UTF-8; empty when all is
-/// well, and when the run ends in words because a motion is no longer finite.
-/// @param seconds  how much is recorded at most
-/// @param inputs   given on the way; where one is refused, all is well too
+/// What is wrong with any form of the first moments of a stage: a NaN, or bytes that are not UTF-8; empty if all is
+/// well, or if the run ends in words because a motion is no longer finite.
+/// @param seconds  longest time that is recorded
+/// @param inputs   given during the run; if one is refused, all is well too
 [[nodiscard]] std::string fault_of_run(const StageDescription& description, double seconds,
                                        std::span<const TimedInput> inputs = {});
 

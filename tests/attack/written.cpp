@@ -27,7 +27,7 @@ bool is_utf8(std::string_view text) {
 
 namespace {
 
-/// Where `word` stands as a word of its own, also in the attributes of a picture; npos for nowhere.
+/// Where `word` occurs as a word of its own, including in attributes of a picture; npos if nowhere.
 std::size_t place_of_word(std::string_view word, const std::string& text) {
   const auto beside = [&](std::size_t at) {
     return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');

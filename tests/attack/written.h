@@ -1,6 +1,6 @@
 #pragma once
 
-// What may never stand in anything that is written.
+// What must never occur in anything that is written.
 
 #include <stdexcept>
 #include <string>
@@ -11,14 +11,14 @@ namespace tweenfall::attack {
 /// Whether `text` is UTF-8 throughout.
 [[nodiscard]] bool is_utf8(std::string_view text);
 
-/// A NaN or an infinity in place of a number, or bytes that are not UTF-8; empty when there is none.
-/// @param names  that the text may show; a word of theirs is not looked for
+/// A NaN or an infinity in place of a number, or bytes that are not UTF-8; empty if there is none.
+/// @param names  that the text may show; words in them are ignored
 [[nodiscard]] std::string fault_of_text(const std::string& text, const std::string& names);
 
-/// The same of JSON, whose names may be any words.
+/// The same for JSON, whose names may be any words.
 [[nodiscard]] std::string fault_of_json(const std::string& text);
 
-/// What `judge` finds wrong with what `write` makes. That it refuses in words (std::runtime_error,
+/// What `judge` finds wrong with the output of `write`. Refusing in words (std::runtime_error,
 /// std::invalid_argument) is right.
 template <class Write, class Judge>
 [[nodiscard]] std::string written(const Write& write, const Judge& judge) {

@@ -1,5 +1,5 @@
 // The crowd clip by the crowd's own path: a thousand figures, each at its own place in the clip and with its own pose.
-// The counters say nanoseconds for each joint, each vertex or each figure, and bytes for the compiled clip.
+// The counters give nanoseconds per joint, vertex or figure, and bytes for the compiled clip.
 
 #include "crowd_clip.h"
 
@@ -37,7 +37,7 @@ const Compiled& compiled(std::uint32_t joints) {
       .first->second;
 }
 
-/// As many poses of each figure as are blended, and one for what comes out.
+/// As many poses per figure as are blended, and one for the result.
 struct Crowd {
   const Compiled& of;
   std::size_t joints, groups;
@@ -135,7 +135,7 @@ void local_to_world(benchmark::State& state) {
   tell(state, "joint", crowd.joints * crowd_size);
 }
 
-// Two samples, their blend, and the way to the world.
+// Two samples, their blend, and the conversion to the world.
 void whole_frame(benchmark::State& state) {
   Crowd crowd(static_cast<std::uint32_t>(state.range(0)));
   for (auto _ : state) {

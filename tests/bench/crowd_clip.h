@@ -1,7 +1,7 @@
 #pragma once
 
 // The figure and the clip on which speeds of animation are compared: 67 joints in a spine and limbs of five, ten
-// seconds at 30 keys each second on position, rotation and scale of every joint.
+// seconds at 30 keys per second on position, rotation and scale of every joint.
 
 #include <tweenfall/anim/animation.h>
 #include <tweenfall/curves/keys.h>

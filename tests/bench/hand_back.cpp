@@ -1,6 +1,6 @@
-// The step in which 2,000 bodies come back to a clip by one rule, beside the step before; and nodes that come and go
-// one by one. The counters say milliseconds and megabytes of that step beyond an ordinary one, and microseconds per
-// node.
+// The step in which 2,000 bodies come back to a clip by one rule, beside the step before; and nodes that are added and
+// removed one by one. The counters give milliseconds and megabytes of that step beyond an ordinary one, and
+// microseconds per node.
 
 #include <tweenfall/curves/keys.h>
 #include <tweenfall/physics/stage/stage.h>
@@ -53,7 +53,7 @@ struct Cost {
   double seconds = 0, bytes = 0;
 };
 
-/// Processor time: others on the machine do not count.
+/// Processor time: other programs on the machine do not count.
 template <class Work>
 Cost cost_of(const Work& work) {
   const std::size_t before = mallinfo2().uordblks;
@@ -89,7 +89,7 @@ void taken_back(benchmark::State& state, Place place) {
 
 enum class Cast { plain, apart, on_floor };
 
-// Each a child of one of a hundred nodes; looked at where it moves, after half a step.
+// Each is a child of one of a hundred nodes; its position is read after half a step.
 void come_and_go(benchmark::State& state, Cast cast) {
   const auto count = static_cast<std::size_t>(state.range(0));
   for (auto _ : state) {

@@ -30,7 +30,7 @@ double hashed(std::uint32_t x) {
   return x / 4294967296.0;
 }
 
-// Ten seconds of keys near every thirtieth of a second, each curve with its own.
+// Ten seconds of keys near every thirtieth of a second, different for each curve.
 struct Track {
   std::vector<double> times, values, slopes;
 
@@ -114,7 +114,7 @@ void one_of_gsl(benchmark::State& state, Order order) {
   one_curve(state, order, [&](double time) { return curve(time); });
 }
 
-// A thousand curves at one time after the other; `evaluate(time)` answers for all of them.
+// A thousand curves at one time after the other; `evaluate(time)` evaluates all of them.
 template <class Evaluate>
 void all_curves(benchmark::State& state, Order order, Evaluate evaluate) {
   std::vector<double> times = shares(order);

@@ -59,7 +59,7 @@ class BulletEngine : public Engine {
       info.m_startWorldTransform.setOrigin(bullets(settings.motion.pose.position));
       info.m_startWorldTransform.setRotation({static_cast<btScalar>(turn.x()), static_cast<btScalar>(turn.y()),
                                               static_cast<btScalar>(turn.z()), static_cast<btScalar>(turn.w())});
-      // Bullet takes the product where scenes want the root of it.
+      // Bullet takes the product where scenes want its square root.
       info.m_friction = static_cast<btScalar>(std::sqrt(settings.friction));
       info.m_restitution = static_cast<btScalar>(settings.restitution);
       info.m_linearDamping = static_cast<btScalar>(settings.linear_damping);
@@ -78,7 +78,7 @@ class BulletEngine : public Engine {
       const auto& limb = std::get<SwingTwistJoint>(joint.kind);
       auto made = std::make_unique<btConeTwistConstraint>(*bodies_[joint.a.index], *bodies_[joint.b.index],
                                                           bullets(joint.frame_a), bullets(joint.frame_b));
-      // Its cone is told about z first; its twist is the same both ways.
+      // Its cone takes z first; its twist is the same both ways.
       made->setLimit(static_cast<btScalar>(limb.swing_z), static_cast<btScalar>(limb.swing_y),
                      static_cast<btScalar>(limb.twist.high));
       world_.addConstraint(made.get(), true);

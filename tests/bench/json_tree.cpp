@@ -1,5 +1,5 @@
 // Documents of very many keys as trees, beside the parser's bare pass over the same text. `bytes_per_byte` is the peak
-// of the memory that reading takes, the text with it, over the size of the text.
+// of the memory that reading takes, including the text, divided by the size of the text.
 
 #include "json/json_tree.h"
 
@@ -46,7 +46,7 @@ namespace {
 
 using namespace tweenfall;
 
-// Keys as rows, keys with names, and members of one object with a name each.
+// Keys as rows, keys with names, and members of one object with one name each.
 enum class Form { rows, named, members };
 
 std::string keys(Form form, std::int64_t count) {

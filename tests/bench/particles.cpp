@@ -1,5 +1,5 @@
 // A hundred thousand particles through a sixtieth of a second on one core, which at 60 Hz may take 16.7 ms: falling, in
-// a wind and around an attractor, and among bodies. The counter says milliseconds of the processor for each step.
+// a wind and around an attractor, and among bodies. The counter gives milliseconds of the processor per step.
 
 #include <tweenfall/physics/particles.h>
 

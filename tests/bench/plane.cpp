@@ -1,5 +1,5 @@
-// A pyramid of so many rows in a plane, in space and, where it is installed, in Box2D 2.4, one thread, nothing asleep:
-// milliseconds of process time for each step. All take turns, run by run; the least median of the runs is told.
+// A pyramid of N rows in a plane, in space and, if it is installed, in Box2D 2.4, one thread, nothing asleep:
+// milliseconds of process time per step. All take turns, run by run; the least median of the runs is printed.
 //   bench_plane [--rows N] [--steps N] [--runs N]
 
 #include <tweenfall/physics/planar_world.h>
@@ -24,7 +24,7 @@ using namespace tweenfall;
 
 constexpr double dt = 1.0 / 60;
 
-/// Where the boxes stand, row by row, the top one last: those of ../shared/scenes/pyramid50.json.
+/// Where the boxes are, row by row, the top one last: as in ../shared/scenes/pyramid50.json.
 std::vector<Vec2> boxes(int rows) {
   std::vector<Vec2> all;
   for (int row = 0; row < rows; ++row)

@@ -1,10 +1,10 @@
-// Scenes of many bodies, one thread, nothing asleep: milliseconds of process time for each step, beside Bullet where it
-// is installed, and what state they end in.
+// Scenes of many bodies, one thread, nothing asleep: milliseconds of process time per step, beside Bullet if it
+// is installed, and the state in which they end.
 //   bench_physics [--scenes FOLDER] [--runs N] [--steps N] [--ours] [--threads N] [SCENE...]
-//   bench_physics --growth: what a step of 500 to 50,000 spheres costs, in parts of n log n
-//   bench_physics --stack: what a step of ten boxes on each other costs
-// The engines take turns, run by run; of the runs the least median and the least 99th of a hundred are told. `--ours`
-// leaves Bullet out, so that one scene can be looked into: perf record -g bench_physics --ours --runs 1 pyramid50
+//   bench_physics --growth: the cost of a step of 500 to 50,000 spheres, divided by n log n
+//   bench_physics --stack: the cost of a step of ten boxes on top of each other
+// The engines take turns, run by run; the least median and the least 99th percentile of the runs are printed. `--ours`
+// leaves Bullet out, to profile one scene: perf record -g bench_physics --ours --runs 1 pyramid50
 
 #include <algorithm>
 #include <chrono>
@@ -29,7 +29,7 @@ struct Wanted {
   int runs = 3;
   int steps = 0;  // 0: as many as the scene says
   bool only_ours = false;
-  int threads = 0;  // more than one: also by so many, in time that passes
+  int threads = 0;  // if more than one, also measured with so many, in wall-clock time
   std::vector<std::string> names;
 };
 
@@ -79,7 +79,7 @@ void run(Engine& engine, int steps, Measured& measured) {
   measured.slow = std::min(measured.slow, times[times.size() * 99 / 100]);
 }
 
-/// Does all parts alone and sums up their time: what is left of a step is what no number of threads makes faster.
+/// Does all parts alone and sums up their time: the rest of a step is what no number of threads makes faster.
 class Accountant : public Executor {
  public:
   explicit Accountant(int threads) : threads_(static_cast<std::size_t>(threads)) {}
@@ -97,7 +97,7 @@ class Accountant : public Executor {
   std::size_t threads_;
 };
 
-/// How much faster so many threads are than one, in time that passes: step by step, in turns.
+/// How much faster this many threads are than one, in wall-clock time: step by step, in turns.
 void compare_threads(const test::Scene& scene, int steps, int threads) {
   OurEngine one(scene, nullptr), many(scene, std::make_shared<ThreadPool>(static_cast<std::size_t>(threads)));
   std::vector<double> ratios, times;
@@ -215,7 +215,7 @@ bool compare(const Wanted& wanted, const std::string& name) {
   return true;
 }
 
-/// Spheres dropped into an open box as high above its floor however many they are: their median step while they settle.
+/// Spheres dropped into an open box from the same height, however many they are: their median step while they settle.
 double step_of_spheres(int count) {
   World world({.sleep_after = INFINITY});
   const int side = static_cast<int>(std::ceil(std::sqrt(count / 16.0)));
@@ -260,7 +260,7 @@ void tell_growth() {
   }
 }
 
-/// Ten boxes at rest on each other, nothing asleep: the world that a game steps most often.
+/// Ten boxes at rest on top of each other, nothing asleep: the world that a game steps most often.
 void tell_stack() {
   World world({.sleep_after = INFINITY});
   world.add({.shape = {Box{{5, 1, 5}}}, .fixed = true, .motion = {.pose = {.position = {0, -1, 0}}}});

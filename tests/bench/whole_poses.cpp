@@ -1,5 +1,5 @@
-// One exact sample of all joints of the crowd clip, value and rate, and the way from local to world; what the clip
-// takes in memory beside it. The counters say nanoseconds for each joint and bytes for each clip.
+// One exact sample of all joints of the crowd clip, value and rate, and the conversion from local to world; and the
+// memory of the clip. The counters give nanoseconds per joint and bytes per clip.
 
 #include "crowd_clip.h"
 
@@ -91,7 +91,7 @@ void crowd_of_thousand(benchmark::State& state, Order order, Keys keys) {
   state.counters["bytes"] = static_cast<double>(figure_of_joints.bytes);
 }
 
-// Of every joint what `way` gives: matrices and their rates, as drawing wants them; or with the rotation, angular
+// For every joint the result of `way`: matrices and their rates, as drawing needs them; or with the rotation, angular
 // velocity and scale of the chain.
 template <class World>
 void local_to_world(benchmark::State& state, void (Hierarchy::*way)(std::span<const Motion>, std::span<World>) const) {

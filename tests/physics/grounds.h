@@ -1,6 +1,6 @@
 #pragma once
 
-// Grounds of triangles, and what comes down on them.
+// Grounds of triangles, and bodies that fall on them.
 
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/physics/query.h>
@@ -10,7 +10,7 @@
 
 namespace tweenfall::test::grounds {
 
-/// A flat floor from -half to half in cells, split this way and that.
+/// A flat floor from -half to half in cells, split one way and the other.
 inline SurfaceMesh flat_floor(double half, int cells, test::Random* random = nullptr) {
   SurfaceMesh mesh;
   for (int k = 0; k <= cells; ++k)
@@ -48,7 +48,7 @@ inline BodySettings sliding(const Solid& solid, const Vec3& place, const Quat& t
   return body;
 }
 
-/// The farthest that the same body comes from where it is over a plane, m, and in the end.
+/// How far the same body differs from its motion on a plane, at most and in the end, m.
 inline double away_from_plane(const Shape& floor, const BodySettings& body, int steps, double* turned = nullptr) {
   World over_mesh(wide_awake()), over_plane(wide_awake());
   over_mesh.add({.shape = floor, .friction = 1, .fixed = true});
@@ -99,7 +99,7 @@ inline SurfaceMesh ball_of_triangles(double radius, int rings) {
   return mesh;
 }
 
-/// The place of a triangle that is nearest to a point: of its plane where that lies in it, else of its sides.
+/// The point of a triangle that is nearest to a given point: on its plane if that lies inside, else on its sides.
 inline Vec3 nearest_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
   const Vec3 n = (b - a).cross(c - a);
   const double of_a = n.dot((b - p).cross(c - p)), of_b = n.dot((c - p).cross(a - p)),

@@ -19,7 +19,7 @@ inline void put(std::vector<std::byte>& bytes, std::size_t at, std::uint64_t val
   for (std::size_t i = 0; i < size; ++i) bytes[at + i] = static_cast<std::byte>(value >> (8 * i) & 0xff);
 }
 
-/// Makes size and checksum right, so that what was changed in the contents is read.
+/// Corrects size and checksum, so that changed contents are read.
 inline void seal(std::vector<std::byte>& bytes) {
   saving::WordHash hash;
   for (std::size_t i = header; i < bytes.size(); i += 8) {

@@ -26,7 +26,7 @@ void add_floor(World& world) {
   world.add({.shape = {Plane{}}, .fixed = true});
 }
 
-/// A heap of all solids that a keyed box pushes about; bodies come, go, change hands and are struck.
+/// A heap of all solids that a keyed box pushes around; bodies come, go, change hands and are struck.
 Scenario heap(const std::string& name, double restitution) {
   const auto make = [restitution] {
     World world;
@@ -155,7 +155,7 @@ Scenario fast() {
   return {"fast bodies, thin walls and a keyed blade", 160, make, step};
 }
 
-/// So many at one place that no pairs are kept, which then part.
+/// So many at one place that no pairs are kept; they then separate.
 Scenario crowd() {
   const auto make = [] {
     World world;
@@ -196,7 +196,7 @@ Scenario islands() {
   return {"many islands", 140, make, step};
 }
 
-/// Every kind of joint, one that breaks, one that is removed, and one whose body is.
+/// Every kind of joint, one that breaks, one that is removed, and one whose body is removed.
 Scenario joints() {
   const auto make = [] {
     World world;
@@ -242,7 +242,7 @@ Scenario joints() {
   return {"joints", 120, make, step};
 }
 
-/// One island of several hundred contacts, of boxes, hulls and balls that slide, stick and rebound on a moving floor.
+/// One island of several hundred contacts: boxes, hulls and balls that slide, stick and rebound on a moving floor.
 Scenario large_island() {
   const auto make = [] {
     World world;

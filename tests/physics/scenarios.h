@@ -1,6 +1,6 @@
 #pragma once
 
-// Worlds in which much happens, told by what is done to them before each step: for runs that must end in the same bits.
+// Busy worlds, given by what is done to them before each step: for runs that must end in the same bits.
 
 #include <tweenfall/physics/world.h>
 

@@ -5,7 +5,7 @@
 
 namespace tweenfall::test {
 
-/// The scenes whose names begin so, of tests/data and of the scenes folder; said loudly when that one is absent.
+/// The scenes whose names begin so, from tests/data and the scenes folder; if that is missing, it is said loudly.
 inline std::vector<Scene> scenes(const std::string& beginning) {
   std::vector<std::filesystem::path> found;
   for (const auto& folder : {data_folder() / "scenes", scenes_folder()}) {

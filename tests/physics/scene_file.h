@@ -54,7 +54,7 @@ inline Pose frame_from(const nlohmann::json& frame) {
   return {vector_from(frame.at("pos")), Quat(turn.at(3), turn.at(0), turn.at(1), turn.at(2)).normalized()};
 }
 
-/// Joints are swing-twist joints, all that scenes have.
+/// Joints are swing-twist joints, the only kind that scenes have.
 inline Scene scene_from(const nlohmann::json& json) {
   WorldSettings settings;
   settings.gravity = vector_from(json.at("gravity"));

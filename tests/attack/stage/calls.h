@@ -1,6 +1,6 @@
 #pragma once
 
-// Every call of a stage, each with arguments of its own choosing.
+// Every call of a stage, each with arguments that it chooses itself.
 
 #include "attack/stage/made.h"
 
@@ -18,11 +18,11 @@ struct Caller {
   StageDescription description = made_stage(random);
   Stage stage{description};
   Arguments arguments{random, false, true};
-  int added = 0;  ///< names that are given away
+  int added = 0;  ///< names that have been used
   std::ostream* log = nullptr;
   std::string fault = {};  ///< what a call found to be wrong
 
-  /// One that is there, or now and then any number.
+  /// An existing one, or sometimes any number.
   [[nodiscard]] NodeId any_node() { return arguments.one_in(12) ? random.bits() : below(random, stage.nodes().size()); }
   void require(bool holds, const char* otherwise) {
     if (!holds && fault.empty()) fault = otherwise;

@@ -1,4 +1,4 @@
-// What changes a stage.
+// Calls that change a stage.
 
 #include "attack/stage/calls.h"
 
@@ -45,7 +45,7 @@ void control(Caller& caller) {
   caller.stage.control(vehicle, made_control(caller.arguments));
 }
 
-/// An input of its own, or one that it was given before.
+/// An input of its own, or one that it was given earlier.
 void give(Caller& caller) {
   const std::vector<TimedInput> before = caller.stage.inputs();
   if (!before.empty() && caller.arguments.one_in(3))

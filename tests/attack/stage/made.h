@@ -1,6 +1,6 @@
 #pragma once
 
-// Stages of every kind of thing that a stage holds, and what may be asked of them.
+// Stages with every kind of thing that a stage can hold, and what may be asked of them.
 
 #include "attack/mutation.h"
 
@@ -9,7 +9,7 @@
 
 namespace tweenfall::attack {
 
-/// Numbers and names for one call, good ones or, where `odd`, odd ones among them.
+/// Numbers and names for one call: good ones or, if `odd`, some odd ones.
 struct Arguments {
   Random& random;
   bool odd = false;
@@ -18,7 +18,7 @@ struct Arguments {
   [[nodiscard]] bool one_in(std::size_t count) const { return below(random, count) == 0; }
   [[nodiscard]] double number(double low, double high) const;
   [[nodiscard]] Vec3 vector(double size) const;
-  /// `right`, or now and then a name that nothing has, or something else.
+  /// `right`, or sometimes a name that nothing has, or that of something else.
   [[nodiscard]] std::string name(const std::string& right) const;
 };
 

@@ -47,7 +47,7 @@ void add_clip(Random& random, StageDescription& stage) {
   stage.plays.push_back({.clip = 0, .at = random.between(0, 0.2), .speed = below(random, 5) ? 1 : -0.7});
 }
 
-/// Machines, blends, and what swings after them, over the bodies that the clip moves.
+/// Machines, blends, and springs after them, over the bodies that the clip moves.
 void add_graph(Random& random, StageDescription& stage) {
   GraphDescription graph{.name = "figure"};
   graph.parameters = {{.name = "speed"}, {.name = "follow", .start = 0.5, .half_life = 0.1}};
@@ -171,7 +171,7 @@ StageDescription made_stage(Random& random) {
   add_bodies(random, stage);
   add_clip(random, stage);
   using Part = void (*)(Random&, StageDescription&);
-  // Joints before what brings a body of its own, which is left free.
+  // Joints before anything that brings a body of its own, which stays free.
   for (const Part part :
        std::initializer_list<Part>{add_graph, add_joints, add_forces, add_rules, add_vehicle, add_soft, add_particles})
     if (below(random, 3) == 0) part(random, stage);

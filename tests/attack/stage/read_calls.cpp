@@ -1,4 +1,4 @@
-// Questions that a stage is asked.
+// Queries to a stage.
 
 #include "attack/stage/calls.h"
 

@@ -1,5 +1,5 @@
-// Calls on a Stage in any order, with any arguments: each is done or refused in words, what is refused changes nothing,
-// and nothing is ever nowhere.
+// Calls on a Stage in any order, with any arguments: each is done or refused in words, a refused call changes nothing,
+// and no position is ever NaN.
 
 #include "attack/stage/calls.h"
 
@@ -35,10 +35,10 @@ class StageCalls final : public Attack {
   std::string play(std::uint64_t number, std::ostringstream* log) const;
 
   std::uint64_t seed_;
-  std::vector<const Call*> calls_;  ///< each as often as its share is
+  std::vector<const Call*> calls_;  ///< each as often as its share
 };
 
-/// What of a stage is nowhere, or empty.
+/// What is not a number, or empty, on a stage.
 std::string lost_in(const Stage& stage, const StageDescription& description) {
   std::vector<WorldMotion> world(stage.nodes().size());
   stage.world(world);
@@ -68,7 +68,7 @@ std::string StageCalls::play(std::uint64_t number, std::ostringstream* log) cons
   Random random = random_of(seed_, number);
   Caller caller{random};
   caller.log = log;
-  bool strained = false;  // something odd was accepted: what follows may end in a body that is no longer finite
+  bool strained = false;  // something odd was accepted: later a body may stop being finite
   for (int call = 0; call < calls_per_case; ++call) {
     const Call& chosen = *calls_[below(random, calls_.size())];
     caller.arguments.odd = below(random, 10) == 0;
@@ -82,7 +82,7 @@ std::string StageCalls::play(std::uint64_t number, std::ostringstream* log) cons
       if (log) *log << "  refused: " << refusal.what() << '\n';
       if (caller.stage.time() != time || caller.stage.state_hash() != hash) return "refused, and yet something changed";
     } catch (const NotFinite& error) {
-      // Said once with node and cause, it is said again by whoever goes on.
+      // Once reported with node and cause, it is reported again when the run goes on.
       if ((strained || caller.arguments.odd) && !error.cause.empty()) return {};
       return std::string("thrown, though nothing odd was asked for: ") + error.what();
     } catch (const std::exception& error) {

@@ -1,4 +1,4 @@
-// Forward, back, kept, taken up again, and what is told on the way.
+// Going forward and back, saving and loading, and callbacks on the way.
 
 #include "attack/stage/calls.h"
 
@@ -8,7 +8,7 @@ namespace tweenfall::attack {
 
 namespace {
 
-/// A long way is refused or takes as long as it is: here it may not be.
+/// A long advance is refused or takes its time: it must not happen here.
 bool takes_long(double seconds) {
   return seconds > 10 && seconds < 1e9;
 }
@@ -28,7 +28,7 @@ void seek(Caller& caller) {
   if (!takes_long(time)) caller.stage.seek(time);
 }
 
-/// Back, and to where it was.
+/// Goes back, and to where it was.
 void seek_there(Caller& caller) {
   const double time = caller.stage.time();
   const std::uint64_t hash = caller.stage.state_hash();
@@ -67,7 +67,7 @@ void move_away(Caller& caller) {
   caller.stage = std::move(other);
 }
 
-/// What a caller does inside of a callback: changes, questions, and what is not allowed.
+/// What a caller does inside of a callback: changes, queries, and forbidden calls.
 void answer(Caller& caller, NodeId node) {
   const std::size_t answer = below(caller.random, 6);
   if (caller.log) *caller.log << "  told at " << caller.stage.time() << ": answer " << answer << '\n';

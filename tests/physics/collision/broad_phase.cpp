@@ -13,7 +13,7 @@ namespace {
 constexpr double margin = 2e-3;
 constexpr double frame_time = 1.0 / 60;
 
-/// Bodies that go where chance takes them, and their pairs, found and counted out.
+/// Bodies that move at random, and their pairs, found by the broad phase and by brute force.
 struct Crowd {
   test::Random random;
   std::vector<state::Body> bodies;

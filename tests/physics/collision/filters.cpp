@@ -100,7 +100,7 @@ TEST_CASE("who sleeps on a body wakes when it is told to pass through it, and fa
     CHECK(height(world, below) < 3.4);
     run_for(world, 4);
     CHECK(height(world, below) == doctest::Approx(0.5).epsilon(1e-3));
-    // Groups let both fall; ignoring lets one fall, and the other comes to lie on the shelf.
+    // Groups let both fall; with `ignore` one falls, and the other comes to lie on the shelf.
     CHECK((height(world, above) > 3) == !by_groups);
   }
 }
@@ -223,7 +223,7 @@ TEST_CASE("a pair that the caller ignores and others hold meets again when the l
   pairs.remove(3);
   CHECK(pairs.all().empty());
 
-  // Against a set, whatever the order.
+  // Checked against a set, whatever the order.
   test::Random random(8);
   std::set<std::pair<std::uint32_t, std::uint32_t>> asked;
   for (int i = 0; i < 4000; ++i) {

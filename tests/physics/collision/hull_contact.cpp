@@ -86,7 +86,7 @@ TEST_CASE("balls and capsules overlap the hull of a box's corners by their radiu
     const Shape round = i % 2 ? Shape{Sphere{0.2}} : Shape{Capsule{0.2, half_height}};
     const Pose at_box = standing(random.vector(1), random.rotation());
     const Pose at_round = standing(Vec3(at_box.position + random.vector(0.9)), random.rotation());
-    // The distance to a box is convex along the axis: thirds of thirds find the least.
+    // The distance to a box is convex along the axis: a ternary search finds the least.
     const auto distance = [&](double t) {
       const Vec3 at = at_round.position + at_round.rotation * Vec3(0, t, 0) - at_box.position;
       const Vec3 local = at_box.rotation.conjugate() * at;
@@ -108,7 +108,7 @@ TEST_CASE("balls and capsules overlap the hull of a box's corners by their radiu
     CHECK(std::abs(manifold.normal.norm() - 1) < 1e-12);
     if (least > 1e-3) {
       ++shallow;
-      // Nearly along a face's normal, the face's own counts.
+      // Nearly along a face's normal, the face's own normal is taken.
       CHECK(std::abs(greatest_depth(manifold) - (0.2 - least)) < 1e-3);
     } else if (least < 1e-9) {
       ++deep;
@@ -162,7 +162,7 @@ TEST_CASE("a hull on a plane stands on its spread-out corners") {
   CHECK(near(greatest_depth(cube), 0.01, 1e-14));
   const Manifold disc = collide(cylinder(0.5, 0.2, 24), standing({0, 0.1, 0}), floor, standing({0, 0, 0}), 1e-3);
   REQUIRE(disc.count == 4);
-  // The middle is held from all sides.
+  // The center is held from all sides.
   double least_x = 1, most_x = -1, least_z = 1, most_z = -1;
   for (const ContactPoint& point : disc.points) {
     least_x = std::min(least_x, point.position.x());
@@ -194,7 +194,7 @@ TEST_CASE("crossed edges, a tip on a face and faces on faces touch where geometr
     REQUIRE(tip.count >= 1);
     CHECK(near(tip.normal, Vec3(0, 1, 0), 1e-12));
     CHECK(near(greatest_depth(tip), 0.03, 1e-12));
-    // A cube on another, shifted and turned a little: the corners of what they share.
+    // A cube on another, shifted and turned a little: the corners of their common area.
     const Manifold stacked = collide(cube, standing({0, 0, 0}), other, standing({0.3, 0.99, 0.2}));
     REQUIRE(stacked.count == 4);
     CHECK(near(stacked.normal, Vec3(0, 1, 0), 1e-12));
@@ -261,7 +261,7 @@ TEST_CASE("many-sided hulls meet each other as the round solids that they stand 
     const Manifold beside = collide(pin, standing({0, 0, 0}), pin, standing({0.39, 0.2, 0.0}, turned), 1e-3);
     REQUIRE(beside.count >= 1);
     CHECK(std::abs(beside.normal.x() - 1) < 0.005);
-    CHECK(greatest_depth(beside) < 0.0101 + 4e-4);  // what a kind of direction may be worse to be kept
+    CHECK(greatest_depth(beside) < 0.0101 + 4e-4);  // by this much, an earlier kind of direction may be worse
     CHECK(greatest_depth(beside) > 2 * flat - 0.39 - 1e-9);
     const Manifold with_ball = collide(ball, standing({-0.39, 0, 0}), pin, standing({0, 0, 0}, turned));
     REQUIRE(with_ball.count == 1);

@@ -24,7 +24,7 @@ Solid needle(std::uint64_t kind, double thin, double half) {
 TEST_CASE("what has come through one triangle touches those beside it, and nothing comes around a border") {
   const Shape field{flat_field()}, capsule{Capsule{0.02, 0.3}};
   for (const double middle : {0.0014, 0.01, 0.05}) {
-    // The middle is over one triangle, and the lower tip under another: 0.1 m and 0.3 m away along x.
+    // The center is over one triangle, and the lower tip under another: 0.1 m and 0.3 m away along x.
     for (const double x : {0.1, -0.35, 0.4, 1.9}) {
       CAPTURE(middle);
       CAPTURE(x);
@@ -34,11 +34,11 @@ TEST_CASE("what has come through one triangle touches those beside it, and nothi
       double deepest = 0;
       for (int i = 0; i < manifold.count; ++i)
         deepest = std::max(deepest, manifold.points[static_cast<std::size_t>(i)].penetration);
-      // The lower tip's ball: 0.3 sin 0.3 under the middle, and its radius.
+      // The lower tip's ball: 0.3 sin 0.3 below the center, and its radius.
       CHECK(deepest == doctest::Approx(0.3 * std::sin(0.3) + 0.02 - middle).epsilon(1e-9));
     }
   }
-  // Over the edge at x = 5 the same capsule stands beside the field, its tip under it.
+  // Over the edge at x = 5 the same capsule is beside the field, with its tip below it.
   const Quat under(Eigen::AngleAxisd(std::numbers::pi / 2 - 0.9, Vec3(0, 0, 1)));
   CHECK(collide(field, {}, capsule, {.position = Vec3(5.1, 0.05, 0.1), .rotation = under}).count == 0);
 }

@@ -8,9 +8,9 @@
 
 using namespace tweenfall;
 
-// The overlap of two solids is the least, over all directions, of how far one must go along it for them to be apart;
-// the distance of solids that are apart is the greatest gap over all directions. What each solid's farthest place is
-// follows from its definition alone. Directions all around are tried, and the best of them made better by small turns.
+// The overlap of two solids is the least displacement that separates them, over all directions;
+// the distance of separated solids is the greatest gap over all directions. The farthest point of each solid
+// follows from its definition alone. Directions all around are tried, and the best of them refined by small turns.
 
 namespace {
 
@@ -170,11 +170,11 @@ Solid random_solid(std::size_t kind, test::Random& random) {
   }
 }
 
-/// In parts of the greatest of the sizes, 0.6 m.
+/// Relative to the greatest of the sizes, 0.6 m.
 struct Disagreement {
-  double apart = 0;        ///< of the distance with the best of all directions
-  double overlapping = 0;  ///< of the depth along the normal with the best of all directions
-  double along = 0;        ///< of the deepest point with the depth along the normal
+  double apart = 0;        ///< between the distance and the best of all directions
+  double overlapping = 0;  ///< between the depth along the normal and the best of all directions
+  double along = 0;        ///< between the deepest point and the depth along the normal
   int overlaps = 0, gaps = 0;
 };
 
@@ -228,8 +228,8 @@ TEST_CASE("every pair of solids is as far apart or as deep as the best of all di
                      << worst.overlapping << ", deepest point " << worst.along);
       CAPTURE(pair);
       CHECK(worst.apart < 1e-6);
-      // Of two polyhedra a face is preferred to edges that are hardly better, so that contacts keep still, and the
-      // deepest corner may lie beside the face that it is told against.
+      // For two polyhedra a face is preferred to edges that are hardly better, so that contacts keep still, and the
+      // deepest corner may lie beside the face that its depth refers to.
       CHECK(worst.overlapping < (flat(first) && flat(second) ? 4e-3 : 1e-6));
       CHECK(worst.along < (flat(first) && flat(second) ? 0.05 : 1e-6));
     }

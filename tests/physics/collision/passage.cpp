@@ -113,7 +113,7 @@ TEST_CASE("until they are said to meet no bodies touch, then they do, and those 
     double least = 1;
     for (int k = 0; k <= looks; ++k) least = std::min(least, gap_at(end * k / looks));
     CHECK(least >= (time ? 0 : 0.4 * collision::hair));
-    // Where the nearest places change all the way the search may end before them.
+    // If the nearest points change all the way, the search may end before them.
     if (time && gap_at(*time) > collision::hair) ++short_of;
     ++(time ? met : missed);
   }

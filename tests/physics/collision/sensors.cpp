@@ -84,14 +84,14 @@ TEST_CASE("sensors report who sleeps in them, what is keyed, and what moves them
   world.step(1.0 / 120);
   CHECK(pairs_in(world.sensor_overlaps()).contains({room.index, keyed.index}));
   CHECK(world.asleep(ball));
-  // The room goes: to where no one is.
+  // The sensor moves away: to where no one is.
   world.set_motion(room, {.pose = {.position = Vec3(50, 50, 0)}});
   world.step(1.0 / 120);
   CHECK(pairs_in(world.ended_sensor_overlaps()) == IndexPairs{{room.index, ball.index}, {room.index, keyed.index}});
   world.set_motion(room, {.pose = {.position = Vec3(0, 1, 0)}});
   world.step(1.0 / 120);
   CHECK(world.sensor_overlaps().size() == 3);
-  // Who is removed has left, and the sensor that is removed has no one in it.
+  // A removed body has left, and a removed sensor has no one in it.
   world.remove(ball);
   const BodyId other = world.add(small_ball({0, 0.1, 0.3}));
   REQUIRE(other.index == ball.index);
@@ -126,7 +126,7 @@ TEST_CASE("sensors hold to groups and ignored pairs, do not see each other, and 
   const BodyId below = world.add(sensing(Plane{{0, 1, 0}, 0}, {0, 0, 0}));
   world.step(0.01);
   CHECK(pairs_in(world.sensor_overlaps()).contains({below.index, plain.index}));
-  // And it all goes along with a copy, and with saved bytes.
+  // All of this is part of a copy, and of saved bytes.
   World copy = world, loaded;
   loaded.load(world.save());
   for (World* each : {&world, &copy, &loaded}) each->step(0.01);
@@ -155,7 +155,7 @@ TEST_CASE("a contact that ends is told once, by rising, by being ignored, and by
   }
   REQUIRE(world.asleep(ball));
   world.apply_impulse(ball, Vec3(0, 10 * world.mass(ball).mass, 0), world.motion(ball).pose.position);
-  // In the step in which it rises it touches still.
+  // In the step in which it rises it still touches.
   world.step(0.01);
   CHECK(world.contacts().size() == 1);
   world.step(0.01);

@@ -33,7 +33,7 @@ BodySettings raft(double density, const Vec3& half, double height) {
 TEST_CASE("a box floats as deep as its density says, and bobs by 2 pi sqrt(draught / g)") {
   World world(afloat(Integrator::rk4));
   const Vec3 half(0.5, 0.2, 0.7);
-  // It floats with 600 / 1000 of its 0.4 m under: its middle 0.04 m below the surface at 3 m.
+  // It floats with 600 / 1000 of its 0.4 m submerged: its center is 0.04 m below the surface at 3 m.
   const BodyId body = world.add(raft(600, half, 2.96));
   world.add_force(Buoyancy{.level = 3});
   world.step(0.01);
@@ -75,7 +75,7 @@ TEST_CASE("a raft that leans is righted by its metacentric height, and one that 
     const BodyId body = world.add(box);
     world.add_force(Buoyancy{});
     world.step(1e-3);
-    // G M = K B + I / V - K G, with I / V = b^2 / (12 draught); the moment is that times weight and lean.
+    // G M = K B + I / V - K G, with I / V = b^2 / (12 draft); the moment is that times weight and lean.
     const double draught = high, metacentric = draught / 2 + 1.0 / (12 * draught) - high;
     const double moment = -world.mass(body).mass * 9.81 * metacentric * lean;
     const double spin = world.twist(body).angular.z();
@@ -166,7 +166,7 @@ TEST_CASE("a world with every force that is no function is saved, copied and sha
     CHECK(loaded.state_hash() == world.state_hash());
     CHECK(copy.state_hash() == world.state_hash());
   }
-  // Another strength is another world.
+  // Another strength makes another world.
   World one, other;
   one.add_force(Drag{.linear = 1}, {{}, 2});
   other.add_force(Drag{.linear = 1}, {{}, 3});

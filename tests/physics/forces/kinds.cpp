@@ -57,7 +57,7 @@ TEST_CASE("what falls through air by its coefficient follows v tanh(g t / v) to 
   world.add_force(Wind{.coefficient = 0.47});
   run(world, 1, 240);
   CHECK(near(world.twist(body).linear.y(), -terminal * std::tanh(free_fall / terminal), 1e-9));
-  // The usual integrator ends at it, too.
+  // The default integrator ends at it, too.
   World usual(by(Integrator::exact_quadratic, Vec3(0, -free_fall, 0)));
   const BodyId other = usual.add(ball(0.05, Vec3(0, 0, 0)));
   usual.add_force(Wind{.coefficient = 0.47});
@@ -124,7 +124,7 @@ TEST_CASE("an attractor leads a planet around Kepler's ellipse and home after it
 TEST_CASE("two attractors that draw each other turn about their middle in 2 pi sqrt(d^3 / (a1 + a2))") {
   for (const Integrator integrator : {Integrator::rk4, Integrator::implicit_trapezoid}) {
     World world(by(integrator));
-    // Speeds about the middle at a distance of 2 m: each its share of sqrt((1 + 3) / 2).
+    // Speeds about the common center at a distance of 2 m: each its share of sqrt((1 + 3) / 2).
     const double speed = std::sqrt(2.0);
     const BodyId a = world.add(ball(1, Vec3(-1.5, 0, 0), Vec3(0, -0.75 * speed, 0)));
     const BodyId b = world.add(ball(3, Vec3(0.5, 0, 0), Vec3(0, 0.25 * speed, 0)));
@@ -204,7 +204,7 @@ TEST_CASE("a push off the center turns a body by r x f and moves it as if it wer
   CHECK(world.potential_energy(push).value() == 0);
   run(world, 0.2, 400);
   CHECK(near(world.twist(body).linear, Vec3(0, 0.4, 0), 1e-12));
-  // What the force did along the way of its point went into the motion.
+  // The work of the force along the path of its point became kinetic energy.
   CHECK(near(world.kinetic_energy() + world.potential_energy(push).value(), 0, 1e-10));
   CHECK(world.twist(body).angular.z() > 0.9 * 6 * 0.2 / 1.0025);
 }
@@ -224,7 +224,7 @@ TEST_CASE("formulas are forces, and of a potential the force is how it falls") {
   CHECK(near(same.kinetic_energy() + same.potential_energy(), 9 * 1.29 + 1, 1e-8));
   CHECK(ForceFormula({"t", "0", "0"}).reads_time());
   CHECK_FALSE(ForceFormula({"tau*x", "mass", "0"}).reads_time());
-  // No value: nothing.
+  // Without a value, the force is 0.
   CHECK(ForceFormula({"1/x", "log(x)", "vx"}).force(1, Vec3(0, 0, 0), Vec3(2, 0, 0), 0) == Vec3(0, 0, 2));
   CHECK_THROWS_AS(ForceFormula({"w", "0", "0"}), ExpressionError);
   CHECK_THROWS_AS(static_cast<void>(ForceFormula::potential("vx")), ExpressionError);
@@ -246,7 +246,7 @@ TEST_CASE("a strength is keyed or a formula, and its integral is the momentum th
     CHECK(near(speed_after(jump, 1, 240, integrator), 3 * (0.5 - 1.5), 1e-12));
   }
   CHECK(near(speed_after(Strength::formula("sin(pi*t)"), 1, 240, Integrator::rk4), 3 * 2 / pi, 1e-9));
-  // An ease that is no cubic: as the curve itself has it.
+  // For an ease that is no cubic: as the curve itself has it.
   const Curve<double> elastic = keyed_curve<double>(Keys{{0, 0, *Ease::named("elastic-out")}, {1, 2}});
   const Strength fitted = elastic;
   for (int i = -10; i <= 110; ++i) CHECK(near(fitted.at(0.01 * i), elastic.value(0.01 * i), 4e-9));
@@ -296,7 +296,7 @@ TEST_CASE("forces that cannot be are refused in words") {
   for (const Force& force : bad) CHECK_THROWS_AS(world.add_force(force), std::invalid_argument);
   CHECK_THROWS_AS(world.add_force(Push{.body = body}, {.bodies = {body}}), std::invalid_argument);
   CHECK_THROWS_AS(world.add_force(Drag{}, {.bodies = {{3, 3}}}), std::invalid_argument);
-  // Onto the very point, at any power: nothing.
+  // At the very point, at any power: no force.
   world.add_force(Attractor{.power = 8});
   world.step(0.01);
   CHECK(world.twist(body).linear.x() == 0);

@@ -46,16 +46,16 @@ TEST_CASE("what is under a plane has the volumes of textbooks") {
   const double cone = pi * 0.36 / 3;
   CHECK(near(under(Cone{0.6, 0.5}, Vec3(0, -1, 0), -0.2).volume, cone * 0.027, 1e-13));
   CHECK(near(under(Cone{0.6, 0.5}, Vec3(0, -1, 0), -0.2).center, Vec3(0, 0.5 - 0.75 * 0.3, 0), 1e-12));
-  // A cylinder that lies: a segment of its circle, r^2 acos(d / r) - d sqrt(r^2 - d^2), along its whole length.
+  // A lying cylinder: a segment of its circle, r^2 acos(d / r) - d sqrt(r^2 - d^2), along its whole length.
   const double segment = 0.16 * std::acos(0.25) - 0.1 * std::sqrt(0.16 - 0.01);
   CHECK(near(under(Cylinder{0.4, 0.7}, Vec3(1, 0, 0), -0.1).volume, 1.4 * segment, 1e-13));
-  // A hoof of a cylinder, cut from a diameter of its base to its top: 2/3 r^2 h. Its middle lies 3/16 pi r off the
+  // A hoof of a cylinder, cut from a diameter of its base to its top: 2/3 r^2 h. Its center lies 3/16 pi r off the
   // axis.
   const Vec3 slant = Vec3(1.4, -0.4, 0).normalized();
   const shapes::Submerged hoof = under(Cylinder{0.4, 0.7}, -slant, -slant.dot(Vec3(0, -0.7, 0)));
   CHECK(near(hoof.volume, 2.0 / 3 * 0.16 * 1.4, 1e-11));
   CHECK(near(hoof.center.x(), 3 * pi / 16 * 0.4, 1e-10));
-  // A capsule that lies with a third of its diameter under: cylinder and ball, each cut at h = 0.2.
+  // A lying capsule with a third of its diameter submerged: cylinder and ball, each cut at h = 0.2.
   const double across = 0.09 * std::acos(1.0 / 3) - 0.1 * std::sqrt(0.09 - 0.01);
   CHECK(near(under(Capsule{0.3, 0.6}, Vec3(0, 0, 1), -0.1).volume, 1.2 * across + pi * 0.04 * (0.9 - 0.2) / 3, 1e-11));
 }
@@ -76,7 +76,7 @@ TEST_CASE("what is under and what is over make the whole, and the level moves th
       const shapes::Submerged below = under(solid, normal, level), above = under(solid, -normal, -level);
       CHECK(near(below.volume + above.volume, whole, 1e-9 * whole));
       CHECK(near(Vec3(below.volume * below.center + above.volume * above.center), Vec3(whole * middle), 2e-9));
-      // Moving on it takes in slices: the middle's moment along the normal grows by level times what is added.
+      // Rising by slices: the moment of the center along the normal grows by level times what is added.
       const double h = 1e-4;
       const shapes::Submerged more = under(solid, normal, level + h), less = under(solid, normal, level - h);
       const double added = more.volume - less.volume;
@@ -104,7 +104,7 @@ TEST_CASE("shadows have the areas of textbooks, and their mean is a quarter of t
   CHECK(near(shapes::shadow_of({Box{Vec3(1, 2, 3)}, {}}, Vec3(0, 1, 0)), 12, 1e-14));
   CHECK(near(shapes::shadow_of({Cone{0.6, 0.5}, {}}, Vec3(1, 0, 0)), 0.6, 1e-14));
   CHECK(near(shapes::shadow_of({Cone{0.6, 0.5}, {}}, Vec3(0, 1, 0)), pi * 0.36, 1e-14));
-  // Cauchy: of a convex solid. Surfaces: 2 pi r (r + h), pi r (r + sqrt(r^2 + h^2)), 4 pi r^2 + 2 pi r h.
+  // Cauchy's theorem for convex solids. Surfaces: 2 pi r (r + h), pi r (r + sqrt(r^2 + h^2)), 4 pi r^2 + 2 pi r h.
   const std::pair<Solid, double> solids[] = {{Cylinder{0.4, 0.7}, 2 * pi * 0.4 * (0.4 + 1.4)},
                                              {Cone{0.6, 0.5}, pi * 0.6 * (0.6 + std::sqrt(1.36))},
                                              {Capsule{0.3, 0.6}, 4 * pi * 0.09 + 2 * pi * 0.3 * 1.2},
@@ -113,7 +113,7 @@ TEST_CASE("shadows have the areas of textbooks, and their mean is a quarter of t
   for (const auto& [solid, surface] : solids) {
     const std::string kind(kind_name(solid));
     CAPTURE(kind);
-    // Even in the height on the sphere.
+    // Evenly spaced in height on the sphere.
     double sum = 0;
     constexpr int steps = 400;
     for (int i = 0; i < steps; ++i) {

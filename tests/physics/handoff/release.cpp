@@ -10,7 +10,7 @@ TEST_CASE("pendulum let go: velocity, instant and landing are those of the close
   const double theta = std::cos(w * released), rate = -w * std::sin(w * released);
   const Vec3 place(std::sin(theta), 2 - std::cos(theta), 0),
       velocity(rate * std::cos(theta), rate * std::sin(theta), 0);
-  // The published figures of the scenario, to their printed digits.
+  // The published figures of the scenario, to the digits printed there.
   CHECK(near(place, Vec3(0.024478, 1.000300, 0), 1e-6));
   CHECK(near(velocity, Vec3(-3.130215, -0.076643, 0), 1e-6));
   const double fall =
@@ -70,7 +70,8 @@ TEST_CASE("pose is continuous at a release and the body leaves with the derivati
       CHECK(near(shown.motion.pose.position, arriving.pose.position, 1e-12));
       CHECK(near(shown.motion.pose.rotation, arriving.pose.rotation, 1e-12));
 
-      // The derivative of the center of mass, from outside: a one-sided stencil of sixth order on the arriving side.
+      // The derivative of the center of mass, computed independently: a one-sided stencil of sixth order on the
+      // arriving side.
       const Vec3 local(0.3, -0.2, 0.1);
       const double h = 2e-4;
       const double weights[] = {147.0 / 60, -6, 7.5, -20.0 / 3, 3.75, -1.2, 1.0 / 6};
@@ -114,7 +115,7 @@ TEST_CASE("a body that turns about a point beside its center leaves with v = v_o
 }
 
 TEST_CASE("the instant is exact wherever it lies in the step") {
-  // Contact-free landing: the place at a fixed time after a release swept across the grid is the closed form.
+  // Flight without contacts: the position at a fixed time after a release at any time of the grid is the closed form.
   const double w = std::sqrt(standard_gravity), end = 1.1;
   for (const double step : compared_steps) {
     for (int i = 0; i < 40; ++i) {

@@ -84,7 +84,7 @@ inline Rule recover_at(double time, const std::string& body, const HandBack& han
   return rule;
 }
 
-/// Place of the center of mass.
+/// Position of the center of mass.
 inline Vec3 center(const Pose& pose, const Vec3& local) {
   return pose.position + pose.rotation * local;
 }

@@ -86,7 +86,7 @@ TEST_CASE("sizes settle with the places, of a body that is handed back and of th
       const WorldMotion before = foot_at(0.6 - h), after = foot_at(0.6 + h);
       CHECK(near(after.motion.pose.position, before.motion.pose.position, 2 * h * 6));
       CHECK((after.linear - before.linear).cwiseAbs().maxCoeff() < 1e-6);
-      // Half way the velocities are those of what is shown.
+      // Halfway, the velocities are those of the positions shown.
       const WorldMotion early = foot_at(0.7 - h), middle = foot_at(0.7), late = foot_at(0.7 + h);
       CHECK(near(middle.motion.twist.linear, (late.motion.pose.position - early.motion.pose.position) / (2 * h), 1e-4));
       CHECK(((late.linear - early.linear) / (2 * h) - middle.linear_rate).cwiseAbs().maxCoeff() < 1e-4);

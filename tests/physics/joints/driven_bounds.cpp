@@ -63,7 +63,7 @@ TEST_CASE("a motor that drives against its own bound gives no more than its forc
       const double start = world.kinetic_energy();
       for (int i = 0; i < 180; ++i) {
         world.step(1.0 / 60);
-        // Each of the three hinges turns by no more than from bound to bound before it is struck back.
+        // Each of the three hinges turns by at most its range before it is struck back.
         CHECK(world.kinetic_energy() < 1.05 * start + 3 * force * 0.8);
       }
       for (const JointId joint : world.joints()) {
@@ -71,7 +71,7 @@ TEST_CASE("a motor that drives against its own bound gives no more than its forc
         CHECK(world.reading(joint).gap < 1e-6);
       }
     }
-  // At its bound it presses with all its force, and holds against less.
+  // At its bound it presses with its full force, and holds against less.
   World world(weightless);
   const BodyId bar = add_box(world, Vec3(0.2, 0, 0), Vec3(0.2, 0.05, 0.05), 2);
   const JointId hinge = join(world, {}, bar, Vec3(0, 0, 0), HingeJoint{Limits{-1, 0.3}, Motor{2, {}, 5, 1, 6}});

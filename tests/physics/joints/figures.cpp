@@ -9,7 +9,7 @@ using namespace tweenfall::jointed;
 
 namespace {
 
-/// A trunk with two arms of two parts each, tilted, falling onto what lies below; limits are met on the way.
+/// A tilted trunk with two arms of two parts each, falling onto what lies below; limits are met on the way.
 std::vector<BodyId> add_figure(World& world, const Vec3& at, double tilt, bool hinged) {
   const BodyId trunk =
       world.add({.shape = {Capsule{0.12, 0.25}},
@@ -35,7 +35,7 @@ std::vector<BodyId> add_figure(World& world, const Vec3& at, double tilt, bool h
       last = limb;
     }
   }
-  // Slack at first: a joint none of whose rows is in.
+  // Slack at first: none of the joint's rows is active.
   const BodyId ball = add_ball(world, at + Vec3(0.8, 0.1, 0), 0.06, 1);
   join(world, bodies[4], ball, at + Vec3(0.8, 0.1, 0), DistanceJoint{.limits = {0, 0.3}});
   bodies.push_back(ball);
@@ -165,7 +165,7 @@ TEST_CASE("figures are solved to the same bits with every instruction set") {
     CHECK(run(*kernels, second) == told);
     CHECK(std::memcmp(first.data(), second.data(), first.size() * sizeof first[0]) == 0);
   }
-  // What holds is held: every point moves as one.
+  // What is held together moves as one: every point.
   double worst = 0;
   for (std::uint32_t place = 0; place < count; ++place)
     for (int lane = 0; lane < group.lanes(); ++lane) {

@@ -9,12 +9,12 @@ namespace tweenfall::jointed {
 
 namespace {
 
-/// A disk on a weightless rod of which the other end is a ball joint in the world's origin.
-/// Source of all that is expected of it: Goldstein, Classical Mechanics, 3rd edition, 5.7, the heavy symmetrical top.
+/// A disk on a massless rod whose other end is a ball joint in the world's origin.
+/// Source of all expected values: Goldstein, Classical Mechanics, 3rd edition, 5.7, the heavy symmetrical top.
 struct Top {
   static constexpr double mass = 2, reach = 0.4, radius = 0.3, half = 0.03;
   static constexpr double along = 0.5 * mass * radius * radius;  ///< moment about its axis
-  static constexpr double across =                               ///< and across it, about the joint
+  static constexpr double across =                               ///< and perpendicular to it, about the joint
       mass * (3 * radius * radius + 4 * half * half) / 12 + mass * reach * reach;
 
   World world{awake};
@@ -32,20 +32,20 @@ struct Top {
     joint = world.add_joint({.b = disk, .frame_b = {.position = Vec3(0, -reach, 0)}});
   }
   [[nodiscard]] Vec3 axis() const { return world.motion(disk).pose.rotation * Vec3(0, 1, 0); }
-  /// Without nutation: m g r = along spin W - across W^2 cos(tilt), the slower of two.
+  /// Without nutation: m g r = along spin W - across W^2 cos(tilt), the slower of the two solutions.
   [[nodiscard]] static double steady(double tilt, double spin) {
     const double torque = mass * g * reach, whole = along * spin, turning = across * std::cos(tilt);
     return 2 * torque / (whole + std::sqrt(whole * whole - 4 * turning * torque));
   }
 };
 
-/// What a top does that is let go: how far it sinks, and how long it takes to come up again.
+/// What a released top does: how far it sinks, and how long it takes to come up again.
 struct Nutation {
   double lowest = 0;            ///< cosine of its tilt
   double period = 0, turn = 0;  ///< s, and rad about the vertical meanwhile
 };
 
-/// (du/dt)^2 = (start - u) (b (1 - u^2) - a^2 (start - u)) of the cosine u, solved and integrated here.
+/// (du/dt)^2 = (start - u) (b (1 - u^2) - a^2 (start - u)) for the cosine u, solved and integrated here.
 Nutation nutation_of(const Top& top) {
   const double a = Top::along * top.spin / Top::across, b = 2 * Top::mass * g * Top::reach / Top::across;
   double low = -1, high = top.start;
@@ -83,7 +83,7 @@ Course course_of(Top& top, double time, double dt) {
     axis = next;
     const double now = std::acos(axis.y());
     if (rate > 0 && now <= tilt) {
-      // Where a parabola through the last three has its top, nearly.
+      // The approximate top of a parabola through the last three.
       course.last_dip = top.world.time() - dt * (1.5 - rate / (rate + tilt - now));
       if (course.dips++ == 0) course.first_dip = course.last_dip;
     }

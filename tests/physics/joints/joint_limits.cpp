@@ -46,7 +46,7 @@ TEST_CASE("a hard limit stops a door there, and a soft one gives way as its spri
     soft.world.step(1.0 / 240);
     most = std::max(most, soft.world.reading(soft.hinge).position[0]);
   }
-  // A spring of 0.5 Hz on the door's moment: it goes in by speed over the angular frequency.
+  // A spring of 0.5 Hz on the door's moment: it goes in by its speed divided by the angular frequency.
   CHECK(most == doctest::Approx(0.1 + speed / pi).epsilon(1e-2));
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("motors reach their speed, hold their position and give no more than t
   held.run(3);
   CHECK(held.world.reading(held.hinge).position[0] == doctest::Approx(2.5).epsilon(1e-5));
 
-  // A lift: a slider that is held against gravity sags by g / w^2.
+  // An elevator: a slider that is held against gravity sags by g / w^2.
   World world(awake);
   const BodyId lift = add_box(world, Vec3(0, 0, 0), Vec3(1, 0.1, 1), 100);
   const JointId slider =
@@ -140,7 +140,7 @@ TEST_CASE("a swing stays in its elliptic cone and a twist within its limits, wha
   CHECK(beyond < 0.02);
   CHECK(twisted < 0.01);
   CHECK(gap < 1e-4);
-  // It was there.
+  // The limit was there.
   CHECK(swung_y > 0.9);
   CHECK(swung_z > 0.35);
 }

@@ -12,7 +12,7 @@ inline constexpr double g = 9.81;
 inline const WorldSettings awake{.sleep_after = HUGE_VAL};
 inline const WorldSettings weightless{.gravity = Vec3(0, 0, 0), .sleep_after = HUGE_VAL};
 
-/// A joint at a point of the world between bodies as they stand; the default handle for a means the world.
+/// A joint at a point of the world between bodies in their present poses; the default handle for a means the world.
 inline JointId join(World& world, BodyId a, BodyId b, const Vec3& point, const JointKind& kind,
                     const Vec3& axis = Vec3(0, 0, 1), const Vec3& second = Vec3(0, 0, 0)) {
   const JointFrames frames =
@@ -28,7 +28,7 @@ inline BodyId add_ball(World& world, const Vec3& center, double radius, double m
   return world.add({.shape = {Sphere{radius}}, .mass = mass, .motion = {.pose = {.position = center}}});
 }
 
-/// Kinetic and potential energy of what is not fixed, J.
+/// Kinetic and potential energy of everything that is not fixed, J.
 inline double energy_of(const World& world, double gravity = 9.81) {
   double sum = world.kinetic_energy();
   for (const BodyId& body : world.bodies()) {

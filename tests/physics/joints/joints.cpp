@@ -137,11 +137,11 @@ TEST_CASE("a chain of twenty links with a ball of fifty times a link's mass hang
   for (int i = 0; i < 240 * 4; ++i) {
     world.step(1.0 / 240);
     widest = std::max(widest, widest_gap(world));
-    // Of some 2,000 J that it falls through.
+    // Of some 2,000 J of fall.
     REQUIRE(energy_of(world) < before + 2);
   }
   CHECK(widest < 5e-5);
-  // Hung at rest, each joint carries all below it.
+  // When hanging at rest, each joint carries everything below it.
   World hung(awake);
   std::vector<JointId> carried;
   BodyId above{};

@@ -24,7 +24,7 @@ TEST_CASE("a drive carries what is welded to its body, with a limit and without"
   for (int i = 0; i < 240; ++i) world.step(1.0 / 240);
   const double before = world.twist(weak).linear.y();
   for (int i = 0; i < 240; ++i) world.step(1.0 / 240);
-  // What it cannot carry falls with what is left.
+  // What it cannot carry falls with the rest of the weight.
   CHECK(world.twist(weak).linear.y() - before == doctest::Approx(-(g - 30 / 4.0)).epsilon(1e-6));
 }
 

@@ -11,7 +11,7 @@ using test::pi;
 
 namespace {
 
-/// Whether each number is as near as it says it is, and that is not far.
+/// Whether each number is as near as its error claims, and that error is small.
 void check_within(const WeighedProperties& weighed, const MassProperties& expected, double most) {
   const MassProperties& is = weighed.properties;
   const double size = std::sqrt(expected.inertia.trace() / expected.mass);
@@ -62,14 +62,15 @@ TEST_CASE("every solid of an even density that is told as a function weighs as b
 }
 
 TEST_CASE("a bar that grows heavier along its way balances where the integral says") {
-  // rho = a + b x over -h to h: c = b h^2 / (3 a), and the moment about x = 0 across is m h^2 / 3 as if it were even.
+  // rho = a + b x over -h to h: c = b h^2 / (3 a), and the moment about an axis across at x = 0 is m h^2 / 3 as if
+  // even.
   const Box bar{{2, 0.1, 0.1}};
   const WeighedProperties weighed = weigh(Shape{bar}, of([](const Vec3& r) { return 100 + 40 * r.x(); }));
   CHECK(near(weighed.properties.mass, 100 * volume(bar), 1e-12));
   CHECK(near(weighed.properties.center, Vec3(40.0 * 4 / 300, 0, 0), 1e-14));
   const double across = weighed.properties.mass * (4 + 0.01) / 3;
   CHECK(near(moment_about(weighed.properties, {0, 0, 0}, {0, 1, 0}), across, 1e-12));
-  // From nothing at one end: two thirds of the way.
+  // From zero at one end: the center is two thirds of the way.
   const WeighedProperties wedge = weigh(Shape{bar}, of([](const Vec3& r) { return 2 + r.x(); }));
   CHECK(near(wedge.properties.center.x(), -2 + 4 * 2.0 / 3, 1e-13));
   // exp(x) times cos(y): sinh and sin, elementary integrals.
@@ -124,7 +125,7 @@ TEST_CASE("a density is asked in the frame of the node, and only in the solid") 
                                           {.tolerance = 1e-4});
   CHECK(least > 2.3);
   CHECK(most < 3.7);
-  // Linear: mass as if it were even, center displaced by the second moment over the mass.
+  // Linear: mass as if it were even, center displaced by the second moment divided by the mass.
   const MassProperties even = mass_properties(shape, 3 * volume(shape.solid));
   const double along = 0.5 * (even.inertia.trace() - 2 * even.inertia(0, 0)) / even.mass;
   CHECK(near(weighed.properties.mass, even.mass, 1e-9));
@@ -146,14 +147,14 @@ TEST_CASE("densities that cannot be are refused with the place, and rough ones e
   CHECK_THROWS_AS((void)weigh(Shape{Sphere{-1}}, Density(1)), std::invalid_argument);
   CHECK_THROWS_AS((void)weigh(Shape{Box{}}, of([](const Vec3&) { return 1.0; }), {.tolerance = 0}),
                   std::invalid_argument);
-  // Dust: no quadrature follows it, and it says so.
+  // Dust: no quadrature can follow it, and it says so.
   const WeighedProperties dust =
       weigh(Shape{Box{}}, of([](const Vec3& r) { return r.x() * 1e4 - std::floor(r.x() * 1e4) < 0.5 ? 1.0 : 0.0; }),
             {.tolerance = 1e-12, .most_evaluations = 20000});
   CHECK(dust.evaluations < 21000);
   CHECK(dust.mass_error > 1e-6);
   CHECK(std::abs(dust.properties.mass - 0.5) < 3 * dust.mass_error);
-  // As large and as small as there is.
+  // The largest and the smallest possible.
   for (const double size : {1e-6, 1e6}) {
     const WeighedProperties scaled = weigh(Shape{Sphere{size}}, of([](const Vec3&) { return 2.0; }));
     CHECK(near(scaled.properties.mass / (size * size * size), 8 * pi / 3, 1e-9));

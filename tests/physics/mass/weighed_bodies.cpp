@@ -46,7 +46,7 @@ TEST_CASE("a ball that is heavier below rocks upright with the period of its clo
     }
     before = now;
   }
-  // Five quarters of swings less one: from the tilt to the fifth time upright are 2 1/4 swings.
+  // Five quarters of swings minus one: from the tilt to the fifth time upright there are 2 1/4 swings.
   CHECK(crossed == doctest::Approx(2.25 * 2 * test::pi / w).epsilon(0.01));
 }
 

@@ -57,7 +57,7 @@ TEST_CASE("each integrator of particles comes nearer to a planet's year by its o
     particles.emit(Vec3(0.7, 0, 0), Vec3(0, 2 * pi * std::sqrt(1.3 / 0.7), 0));
     particles.add_force(Attractor{.acceleration = 4 * pi * pi});
     run(particles, 0.25, steps);
-    // The ellipse of a = 1, e = 0.3 a quarter year on: E - e sin E = pi / 2.
+    // The ellipse of a = 1, e = 0.3 a quarter year later: E - e sin E = pi / 2.
     double anomaly = pi / 2;
     for (int i = 0; i < 50; ++i) anomaly = pi / 2 + 0.3 * std::sin(anomaly);
     return (particles.position(0) - Vec3(std::cos(anomaly) - 0.3, std::sqrt(0.91) * std::sin(anomaly), 0)).norm();
@@ -99,7 +99,7 @@ TEST_CASE("drag, winds and formulas do to particles what they do to bodies") {
       world.step(1.0 / 60);
       particles.step(1.0 / 60);
     }
-    // Formulas and vortices are asked at the end of a step by what each knows of it.
+    // At the end of a step, formulas and vortices are evaluated with what each knows of it.
     CHECK(near(particles.position(0), world.motion(body).pose.position, 1e-9));
     CHECK(near(particles.velocity(0), world.twist(body).linear, 1e-9));
   }
@@ -186,7 +186,7 @@ TEST_CASE("particles keep out of boxes, balls and hulls, and a body that moves t
     run(particles, 0.4, 3, &world);
     CHECK(near(particles.velocity(0), Vec3(0, 10, 0), 1e-9));
     CHECK(near(particles.position(0).y(), 0.5 + radius + 4 - (1.5 - radius), 1e-8));
-    // Met at 45 degrees it leaves at a right angle.
+    // It bounces at 45 degrees and leaves at a right angle.
     CHECK(near(particles.velocity(1), Vec3(10, 0, 0), 1e-7));
   }
   BodySettings bat;
@@ -218,7 +218,7 @@ TEST_CASE("emitters let go when the integral of their rate says, from where thei
     Particles particles({.gravity = Vec3(0, 0, 0)});
     particles.add(emitter);
     run(particles, 2, steps);
-    // 25 t^2 of them: number k leaves at sqrt(k) / 5.
+    // 25 t^2 of them: particle k leaves at sqrt(k) / 5.
     REQUIRE(particles.size() == 100);
     for (std::size_t i = 0; i < 100; ++i) {
       const double at = std::sqrt(static_cast<double>(i + 1)) / 5;
@@ -242,7 +242,7 @@ TEST_CASE("a rate by a formula goes on for hours, by its integral, and a jump of
   CHECK(whole.emitted() == rain.emitted());
   whole.step(1e300);
   CHECK(std::isfinite(whole.time()));
-  // One that starts late begins with nothing, and one whose formula turns negative stops for that stretch.
+  // One that starts late starts at zero, and one whose formula turns negative stops for that stretch.
   Particles late({.gravity = {0, 0, 0}, .life = 1});
   late.step(1500);
   late.add({.rate = expression_curve(Expression("1"))});
@@ -283,7 +283,7 @@ TEST_CASE("a stream has rate times life of particles, each dies at its age, and 
   }
   CHECK(numbers.size() == 125);
   CHECK(apart > 0.1);
-  // The mean of a cone's heights is half of 1 and its edge's.
+  // The mean of the heights of a cone is half of 1 plus its edge's.
   CHECK(near(mean.y(), 2 * (1 + std::cos(pi / 6)), 0.05));
   Particles copy = particles;
   run(particles, 1, 60);
@@ -327,7 +327,7 @@ TEST_CASE("of too many particles those that would be more stay out, and what can
   CHECK_THROWS_AS(particles.add_force(Buoyancy{}), std::invalid_argument);
   emitter.rate = keyed_curve<double>({{0, 1, Ease::linear()}, {1, -1}});
   CHECK_THROWS_AS(particles.add(emitter), std::invalid_argument);
-  // What leaves all bounds is gone.
+  // A particle beyond all bounds is gone.
   Particles lost({.gravity = Vec3(0, 0, 0)});
   lost.add_force(ForceFormula({"1e30*x^9", "0", "0"}));
   lost.emit(Vec3(1e3, 0, 0), Vec3(0, 0, 0));

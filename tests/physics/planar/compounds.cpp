@@ -36,7 +36,7 @@ planar::Compound random_compound(Random& random) {
   return compound;
 }
 
-/// A part on its own, where its compound puts it.
+/// A part on its own, placed where its compound puts it.
 planar::Shape alone(const planar::Part& part) {
   planar::Shape shape{.offset = part.offset, .angle = part.angle};
   std::visit([&](const auto& outline) { shape.outline = outline; }, part.outline);
@@ -50,7 +50,7 @@ void go(planar::World& world, int steps) {
 }  // namespace
 
 TEST_CASE("in a plane a compound has the mass, the center and the moment of its parts by the parallel-axis theorem") {
-  // Two squares of side 1 whose middles are 3 m apart: each 1/6 + 1.5^2 of its mass.
+  // Two squares of side 1 with centers 3 m apart: each 1/6 + 1.5^2 of its mass.
   const planar::Compound pair{{{planar::Box{}, Vec2(-1, 0.5)}, {planar::Box{}, Vec2(2, 0.5), 0.7}}};
   CHECK(near(planar::area(pair), 2, 1e-15));
   const planar::MassProperties whole = planar::mass_properties({pair}, 4);
@@ -92,7 +92,7 @@ TEST_CASE(
   }
   CHECK(feet == std::set<std::uint32_t>{1, 2});
   CHECK(near(top, 5 * 9.81, 1e-4));
-  // Each foot is 0.2 m wide and may bear anywhere on it: the load is exact about the middle of either only by that.
+  // Each foot is 0.2 m wide and may carry anywhere on it: the load is exact about the middle of either only up to that.
   CHECK(near(left + right, 15 * 9.81, 1e-4));
   const double share = 5 * 9.81 * (0.9 - 0.45) / 1.8 + 5 * 9.81;
   CHECK(std::abs(left - share) < 15 * 9.81 * 0.1 / 1.6);
@@ -113,13 +113,13 @@ TEST_CASE("in a plane a compound that looks like one body moves like one") {
     go(world, 45);
     return world.motion(body);
   };
-  // Up to the first touch and in the air after it: then which corner is hit first takes its own way.
+  // Up to the first touch and in the air after it: later the order in which corners hit decides.
   const planar::Motion one = run({planar::Box{Vec2(1, 0.25)}});
   const planar::Motion two = run({planar::Compound{
       {{planar::Box{Vec2(0.5, 0.25)}, Vec2(-0.5, 0)}, {planar::Box{Vec2(0.5, 0.25)}, Vec2(0.5, 0)}}}});
   CHECK(near(two.position, one.position, 1e-9));
   CHECK(near(two.angle, one.angle, 1e-9));
-  // Rolling on a circle with a lump: a compound of that circle alone has its bits.
+  // Rolling on a circle with a lump: a compound of only that circle has the same bits.
   const planar::Motion circle = run({planar::Circle{0.5}}), single = run({planar::Compound{{{planar::Circle{0.5}}}}});
   CHECK(circle.position == single.position);
   CHECK(circle.angle == single.angle);
@@ -152,7 +152,7 @@ TEST_CASE("in a plane rays, moving shapes and distances meet a compound as they 
     CHECK(planar::distance({compound}, place, {other}, there).distance == apart);
     CHECK(planar::overlapping({compound}, place, {other}, there) == (apart <= 0));
     CHECK(near((planar::closest_point({compound}, place, from) - from).norm(), nearest, 1e-15));
-    // A world answers the same, about the center of mass.
+    // A world gives the same, about the center of mass.
     planar::World world;
     const BodyId body = world.add({.shape = {compound}, .fixed = true, .motion = {place.position, place.angle}});
     const auto seen = planar::cast_ray(world, from, way);
@@ -247,7 +247,7 @@ TEST_CASE("in a plane compounds that cannot be are refused by their part, and a 
 }
 
 TEST_CASE("in a plane a compound of space is cut part by part, and moves about its center of mass as it does there") {
-  // A heavy ball and a light, flat box: what the plane cuts out of them has its center of mass elsewhere.
+  // A heavy ball and a light, flat box: their sections have their center of mass elsewhere.
   const Compound hammer({{Sphere{0.4}, {.position = Vec3(0, 1, 0)}}, {Box{Vec3(0.1, 0.8, 0.05)}, {}}});
   const auto run = [&](WorldPlane plane, const Solid& solid) {
     World world({.sleep_after = always_awake, .plane = plane});

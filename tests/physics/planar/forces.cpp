@@ -80,7 +80,7 @@ TEST_CASE("in a plane a moon circles an attractor, and a box floats by its densi
   const BodyId floating = sea.add(raft);
   sea.add_force(Buoyancy{.drag = {.linear = 2000, .angular = 200}});
   run_plane(sea, 8);
-  // 0.4 of its height is under: its middle is 0.04 m above the water.
+  // 0.4 of its height is submerged: its center is 0.04 m above the water.
   CHECK(near(sea.motion(floating).pose.position.y(), 0.04, 1e-4));
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("in a plane what forces move is the same after saving, and a strength 
   CHECK(world.motion(ball).pose.position.x() > 0.1);
   CHECK(world.state_hash() == loaded.state_hash());
   CHECK(world.motion(ball).pose.position == loaded.motion(ball).pose.position);
-  // Absurd numbers are told, and end nothing but the step.
+  // Absurd numbers are reported, and end nothing but the step.
   World absurd = weightless_world();
   const BodyId thrown = ball_at(absurd, Vec3(0, 0, 0));
   absurd.add_force(Push{.body = thrown, .force = Vec3(1e30, 0, 0)});

@@ -7,7 +7,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// Of a plane the axis along which gravity pulls down, the one along it, and the one across.
+/// For a plane: the axis along which gravity pulls down, the one along the ground, and the one across.
 struct Way {
   WorldPlane plane;
   Vec3 along, up, across;

@@ -20,14 +20,14 @@ void pass(AnyWorld& world, double seconds) {
   for (double n = std::round(seconds / beat); n > 0; --n) world.step(beat);
 }
 
-/// How a damped spring of frequency w and damping ratio z goes to 0 from 1, at rest first.
+/// How a damped spring of frequency w and damping ratio z goes from 1 to 0, starting at rest.
 double settling(double w, double z, double t) {
   if (z == 1) return (1 + w * t) * std::exp(-w * t);
   const double wd = w * std::sqrt(1 - z * z);
   return std::exp(-z * w * t) * (std::cos(wd * t) + z * w / wd * std::sin(wd * t));
 }
 
-/// The same scene in space and in a plane: what differs is the plane alone.
+/// The same scene in space and in a plane: only the plane differs.
 template <class Build>
 void compare(const Build& build, double seconds, double within) {
   World space({.gravity = Vec3(0, -9.81, 0), .sleep_after = ever});
@@ -52,7 +52,7 @@ TEST_CASE("in a plane what slides down a tilted line does so by g sin, turns not
   const double tilt = 0.4;
   planar::BodySettings cart{.shape = {planar::Box{Vec2(0.2, 0.1)}}, .mass = 3.0};
   const BodyId body = world.add(cart);
-  // Held off its middle, by 0.15 m along the line.
+  // Held off its center, by 0.15 m along the line.
   const Vec2 axis(std::cos(tilt), -std::sin(tilt));
   const JointId joint =
       world.add_joint({.b = body, .anchor_a = 0.15 * axis, .anchor_b = 0.15 * axis, .kind = planar::Slider{5 * axis}});
@@ -63,7 +63,7 @@ TEST_CASE("in a plane what slides down a tilted line does so by g sin, turns not
   CHECK(near(world.reading(joint).rate, 9.81 * std::sin(tilt), 1e-6));
   CHECK(std::abs(world.motion(body).angle) < 1e-9);
   CHECK(world.reading(joint).gap < 1e-5);
-  // The line pushes at the point, 0.15 m from the middle: a torque holds the cart against that.
+  // The line pushes at the point, 0.15 m from the center: a torque holds the cart against that.
   const Vec2 across(std::sin(tilt), std::cos(tilt));
   const double load = 3 * 9.81 * std::cos(tilt);
   CHECK(near(Vec2(world.reading(joint).impulse / beat), Vec2(load * across), 1e-6));
@@ -78,7 +78,7 @@ TEST_CASE("in a plane a motor draws a slider and a hinge to a place as a damped 
     const BodyId arm = world.add(rod);
     const JointId slide =
         world.add_joint({.b = sled, .kind = planar::Slider{.motor = Motor{.position = 1.0, .hz = 1.5, .zeta = zeta}}});
-    // About its end: the spring knows how heavily the rod turns there.
+    // About its end: the spring accounts for the rod's moment of inertia there.
     const JointId turn =
         world.add_joint({.b = arm,
                          .anchor_a = {0, 3},
@@ -93,7 +93,7 @@ TEST_CASE("in a plane a motor draws a slider and a hinge to a place as a damped 
     }
     CHECK(world.reading(turn).gap < 1e-3);
   }
-  // Against gravity it gives way by g / w^2, and bears the weight.
+  // Against gravity it yields by g / w^2, and carries the weight.
   planar::World world;
   const BodyId lift = world.add({.shape = {planar::Circle{0.2}}, .mass = 2.0});
   const JointId joint =
@@ -126,7 +126,7 @@ TEST_CASE("in a plane springs hang, swing and settle as their closed forms say, 
     const BodyId ball = world.add({.shape = {planar::Circle{0.1}}, .mass = 2.0, .motion = {.position = Vec2(x, y)}});
     return world.add_joint({.b = ball, .anchor_a = {x, 0}, .kind = spring});
   };
-  // At rest m g / k below its length; let go there, it stays.
+  // At rest it is m g / k below its length; released there, it stays.
   const JointId still = hung(0, {0.7, 130, 0}, -0.7 - 2 * 9.81 / 130);
   const JointId swinging = hung(2, {1, 80, 0}, -1), damped = hung(4, {1, 80, 2 * std::sqrt(160.0)}, -1);
   const JointId stiff = hung(6, {0.5, 1e12, 0}, -0.5), pulled = hung(8, {0, 80, 3}, -0.3);
@@ -135,7 +135,7 @@ TEST_CASE("in a plane springs hang, swing and settle as their closed forms say, 
     world.step(beat);
     REQUIRE(near(world.reading(still).value, 0.7 + 2 * 9.81 / 130, 1e-9));
     REQUIRE(near(world.reading(stiff).value, 0.5, 1e-6));
-    // The end of each sub-step is heeded: so it dies away by exp(-w^2 h t / 2).
+    // Springs use the end of each sub-step, so that the swing decays by exp(-w^2 h t / 2).
     const double fading = std::exp(-w * w * beat / 4 * n * beat / 2);
     REQUIRE(near(world.reading(swinging).value, 1 + sag * (1 - fading * std::cos(w * n * beat)), 0.01 * sag + 2e-3));
     REQUIRE(near(world.reading(damped).value, 1 + sag * (1 - settling(w, 1, n * beat)), 1e-3));
@@ -265,7 +265,7 @@ TEST_CASE("in a plane a body under a steady force falls asleep, and wakes when t
   CHECK(world.asleep(box));
   world.step(beat);
   CHECK_FALSE(world.asleep(box));
-  // What a small force pulls in the air sets out slowly, and is not at rest.
+  // A body pulled by a small force in the air starts slowly, and is not at rest.
   planar::World air({.gravity = {0, 0}});
   const BodyId leaf = air.add({.mass = 1.0});
   for (int n = 0; n < 480; ++n) {

@@ -64,7 +64,7 @@ TEST_CASE("in a plane a bob on a ball joint is a physical pendulum, and on a rod
       crossed = world.time() - tick * now / (now - before);
       ++crossings;
     }
-    // A quarter of a period to the first crossing, and half of one to each more.
+    // A quarter of a period to the first crossing, and half a period to each later one.
     CHECK(near(crossed, 2.25 * period_of(1, amplitude), 2e-3));
     CHECK(world.reading(joint).gap < 1e-3);
     CHECK(world.motion(bob).pose.position.dot(up.cross(side)) == 0);
@@ -74,7 +74,7 @@ TEST_CASE("in a plane a bob on a ball joint is a physical pendulum, and on a rod
   const JointId held = world.add_joint({.b = rod, .kind = DistanceJoint{{1, 1}}});
   world.add_joint({.b = rope, .frame_a = {.position = Vec3(5, 0, 0)}, .kind = DistanceJoint{{0, 1}}});
   swing_on(world, 0.25);
-  // A rope that is slack leaves its bob alone.
+  // A slack rope does not affect its bob.
   CHECK(near(world.twist(rope).linear, Vec3(0, -g_there * 0.25, 0), 1e-9));
   swing_on(world, 2);
   CHECK(near(world.motion(rod).pose.position.norm(), 1, 2e-3));
@@ -99,7 +99,7 @@ TEST_CASE("in a plane a hinge's limits stop it, its motor reaches its speed, and
     const double turned = world.reading(joint).position[0];
     CHECK(turned > 11);
     CHECK(turned < 12);
-    // From here on it may turn back, by no more than to -0.5 rad.
+    // From here on it may turn back, by at most to -0.5 rad.
     world.set_joint(joint, HingeJoint{Limits{-0.5, 20}, Motor{.speed = -8, .max_force = 50}});
     swing_on(world, 4);
     CHECK(near(world.reading(joint).position[0], -0.5, 5e-3));

@@ -30,7 +30,7 @@ double point_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (a + part * (b - a) - p).norm();
 }
 
-/// By all corners and all sides; negative depth along the best of all sides' normals when they overlap.
+/// From all corners and all sides; if they overlap, the negative depth along the best of all sides' normals.
 double brute_distance(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   double best = -1e300, nearest = 1e300;
   for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)})
@@ -62,10 +62,10 @@ TEST_CASE("in a plane the gap of two polygons is that of all corners and sides")
     double gap = -manifold.points[0].penetration;
     if (manifold.count == 2) gap = std::min(gap, -manifold.points[1].penetration);
     CAPTURE(i);
-    // Of two sides that are as good to a ten thousandth of the size one is taken.
+    // If two sides are equal to a ten thousandth of the size, either may be taken.
     CHECK(std::abs(gap - expected) < 2e-4);
     CHECK(std::abs(manifold.normal.norm() - 1) < 1e-12);
-    // Turned about, it is the same contact.
+    // Swapped, it is the same contact.
     const planar::Manifold back = planar::collide({b}, at_b, {a}, at_a, 10);
     double other_gap = -back.points[0].penetration;
     if (back.count == 2) other_gap = std::min(other_gap, -back.points[1].penetration);
@@ -133,6 +133,6 @@ TEST_CASE("in a plane shapes that cannot be are refused in words") {
   for (int i = 0; i < 5; ++i) star.emplace_back(std::cos(4 * pi * i / 5), std::sin(4 * pi * i / 5));
   check(planar::Polygon{star}, "go round more than once");
   check(planar::HalfPlane{Vec2(0, 0)}, "longer than 0");
-  // Clockwise is as good.
+  // Clockwise is fine, too.
   CHECK_NOTHROW(planar::validate({planar::Polygon{{Vec2(0, 1), Vec2(1, 0), Vec2(0, 0)}}}));
 }

@@ -19,7 +19,7 @@ void run_on(AnyWorld& world, double seconds) {
   for (double n = std::round(seconds / geared_step); n > 0; --n) world.step(geared_step);
 }
 
-/// A frame whose x axis stands upright on xy, or on its head.
+/// A frame whose x axis is perpendicular to xy, or points the other way.
 Pose axle_along(double sign, const Vec3& place = Vec3(0, 0, 0)) {
   return {place, Quat(std::sqrt(0.5), 0, -sign * std::sqrt(0.5), 0), Vec3(1, 1, 1)};
 }
@@ -35,8 +35,8 @@ TEST_CASE("in a plane two on a rope over pulleys fall as Atwood's do, by whateve
     const BodyId a = ball(-1, 1.5), b = ball(1, 4);
     const JointId rope = world.add_joint(
         {.a = a, .b = b, .kind = planar::Pulley{.pulley_a = Vec2(-1, 0), .pulley_b = Vec2(1, 0), .ratio = ratio}});
-    // Down by d at b, up by ratio d at a: (m_b + ratio^2 m_a) d'' = (m_b - ratio m_a) g; at b the rope bears what is
-    // left.
+    // Down by d at b, up by ratio d at a: (m_b + ratio^2 m_a) d'' = (m_b - ratio m_a) g; at b the rope carries the
+    // rest.
     const double down = (4 - ratio * 1.5) * pull_of_earth / (4 + ratio * ratio * 1.5);
     const double seconds = 0.5;
     run_on(world, seconds);
@@ -47,14 +47,14 @@ TEST_CASE("in a plane two on a rope over pulleys fall as Atwood's do, by whateve
     CHECK(std::abs(world.reading(rope).rate) < 1e-9);
     CHECK(near(Vec2(world.reading(rope).impulse / geared_step), Vec2(0, 4 * (pull_of_earth - down)), 1e-6));
     const double fallen = 1.5 * (world.motion(a).position.y() + 4) + 4 * (world.motion(b).position.y() + 4);
-    // What is pulled goes each sub-step by the speed at its end: it is half of one ahead, and so much energy is lost.
+    // Each sub-step moves by the speed at its end: this is half a sub-step ahead, and loses that much energy.
     const double ahead = 0.5 * down * seconds * geared_step / 4;
     CHECK(near(world.kinetic_energy() + pull_of_earth * fallen, -(4 - ratio * 1.5) * pull_of_earth * ahead, 1e-3));
   }
 }
 
 TEST_CASE("in a plane a pulley's rope goes slack, is caught by its length, and turns what it holds by the arm") {
-  // Both are thrown up: the rope leaves them alone, though it is as long as it may be.
+  // Both are thrown up: the rope does not affect them, since it is slack.
   planar::World world({.sleep_after = awake_for_ever});
   const auto ball = [&](double x, const Vec2& velocity) {
     return world.add(
@@ -70,7 +70,7 @@ TEST_CASE("in a plane a pulley's rope goes slack, is caught by its length, and t
   run_on(world, 2);
   CHECK(near(world.reading(rope).value, 4, 1e-3));
   CHECK(world.reading(rope).gap < 1e-3);
-  // From then on they move against each other alone: what they had together is gone.
+  // From then on they only move relative to each other: their common motion is gone.
   CHECK(near(world.motion(a).velocity.y(), -world.motion(b).velocity.y(), 1e-6));
 
   // A beam on a hinge at one end, held at the other by a weight of half of its own: the moments about the hinge are
@@ -100,7 +100,7 @@ TEST_CASE("in a plane gears turn by their ratio, weigh as I_a + ratio^2 I_b, and
     };
     const BodyId a = wheel(0, 0.2), b = wheel(1, 0.7);
     const JointId gear = world.add_joint({.a = a, .b = b, .kind = planar::Gear{ratio}});
-    const double torque = 1.5, together = 0.2 + ratio * ratio * 0.7;  // as a feels it
+    const double torque = 1.5, together = 0.2 + ratio * ratio * 0.7;  // moment of inertia that a feels
     for (int n = 0; n < 480; ++n) {
       world.apply_torque(a, torque);
       world.step(geared_step);
@@ -112,7 +112,7 @@ TEST_CASE("in a plane gears turn by their ratio, weigh as I_a + ratio^2 I_b, and
     CHECK(near(world.reading(gear).turned_a, turned, 0.01 * turned));
     CHECK(near(world.reading(gear).value, -ratio * world.reading(gear).turned_a, 1e-5));
     CHECK(near(world.reading(gear).value, world.motion(b).angle, 1e-9));
-    // b is turned by what it gains.
+    // b is turned by the motion that it gains.
     CHECK(near(world.reading(gear).angular_impulse / geared_step, -ratio * 0.7 * torque / together, 1e-6));
     const double energy = world.kinetic_energy();
     CHECK(near(energy, torque * turned, 1e-6 * energy));
@@ -175,7 +175,7 @@ TEST_CASE("a world's pulleys and gears are in a plane what they are in space, wh
     CHECK(near(flat.reading(rope).force, space.reading(rope).force, 0.02));
     CHECK(near(flat.reading(gear).torque, space.reading(gear).torque, 0.02));
 
-    // What has been turned is kept when the gear is told its ratio again, and when the world is saved.
+    // The turned angles are kept when the gear gets its ratio again, and when the world is saved.
     flat.set_joint(gear, GearJoint{0.4});
     World loaded;
     loaded.load(flat.save());

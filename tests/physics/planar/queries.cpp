@@ -12,7 +12,7 @@ namespace {
 
 constexpr double endlessly = std::numeric_limits<double>::infinity();
 
-/// One shape in a plane, and the same in space, which stands upright on it.
+/// A shape in a plane, and the same in space, perpendicular to it.
 struct Twins {
   planar::Shape flat;
   tweenfall::Shape space;
@@ -57,7 +57,7 @@ TEST_CASE("in a plane rays meet circles, boxes, capsules, polygons and half-plan
   const auto ray = [](const planar::Outline& outline, const Vec2& from, const Vec2& way, double length = endlessly) {
     return planar::cast_ray({outline}, {Vec2(1, 0), 0}, from, way, length);
   };
-  // A circle about (1, 0), by a line 0.3 above its middle
+  // A circle about (1, 0), hit by a line 0.3 above its center
   const auto circle = ray(planar::Circle{0.5}, Vec2(-2, 0.3), Vec2(7, 0));
   REQUIRE(circle);
   CHECK(near(circle->distance, 3 - 0.4, 1e-14));
@@ -125,7 +125,7 @@ TEST_CASE("in a plane rays, moving shapes, distances and nearest points are thos
     CHECK(near(flat_hit->fraction, hit->fraction, 1e-7));
     CHECK(flat_hit->inside == hit->inside);
     if (!hit->inside) CHECK(near(flat_hit->normal, in_plane(hit->normal), 1e-4));
-    // Where it stops they touch, and there is the point.
+    // Where it stops they touch, and the point is there.
     planar::Place there = place_a;
     there.position += flat_hit->fraction * way;
     CHECK(planar::distance(a.flat, there, b.flat, place_b).distance < 1e-12);
@@ -158,7 +158,7 @@ TEST_CASE("in a plane half-planes are met by what comes down on them, and hold w
   REQUIRE(stuck);
   CHECK(stuck->inside);
   CHECK(near(stuck->normal, Vec2(0, 1), 0));
-  // What lies on it may leave and slide, and not go on into it.
+  // A touching shape may leave and slide, but not move on into it.
   CHECK_FALSE(planar::cast_shape(box, {Vec2(0, 1), 0}, Vec2(1, 0), ground, {}));
   CHECK_FALSE(planar::cast_shape(box, {Vec2(0, 1), 0}, Vec2(1, 1), ground, {}));
   CHECK(planar::cast_shape(box, {Vec2(0, 1), 0}, Vec2(1, -1), ground, {})->fraction == 0);

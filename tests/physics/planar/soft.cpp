@@ -74,7 +74,8 @@ TEST_CASE("in a plane what hangs on a rope weighs on its pin, and swings as a pe
     crossed = world.time() - now / (now - before) / 240;
     ++crossings;
   }
-  // A quarter of a period to the first crossing, and half of one to each more; of a point, since a rope lets it turn.
+  // A quarter of a period to the first crossing, and half a period to each later one; for a point, since a rope lets it
+  // turn.
   double a = 1, b = std::cos(0.15);
   for (int n = 0; n < 30; ++n) {
     const double mean = (a + b) / 2;
@@ -118,7 +119,7 @@ TEST_CASE("in a plane a rope lies over what a box and a compound of space are th
   CHECK(near(highest, 0.51, 5e-3));
   CHECK(soft_positions(world, id)[0].y() < 0.4);
 
-  // Without weight and without what holds, a body and the rope that it meets have one momentum.
+  // Without weight and without holders, a body and the rope that it hits keep their common momentum.
   World free({.gravity = {0, 0, 0}, .sleep_after = without_sleep, .plane = WorldPlane::xy});
   BodySettings flying{.shape = {Box{Vec3(0.2, 0.2, 0.2)}}, .mass = 1.0};
   flying.motion.twist.linear = Vec3(3, 0, 0);
@@ -145,7 +146,7 @@ TEST_CASE("in a plane a rope on a driven body bends its drive and lets it go on 
   line.pins = {{.node = 0, .body = driven}};
   static_cast<void>(add_soft(world, line));
   run_soft(world, 5);
-  // Its spring, (2 pi hz)^2 of its mass, bears the rope, too.
+  // Its spring, (2 pi hz)^2 of its mass, carries the rope, too.
   CHECK(near(world.motion(driven).pose.position.x(), 1, 5e-3));
   CHECK(near(world.motion(driven).pose.position.y(), -(g_down + 0.2 * g_down) / (16 * pi * pi), 5e-3));
 }
@@ -189,7 +190,7 @@ TEST_CASE("soft bodies that do not lie in a world's plane are refused in words")
   const SoftId id = add_soft(world, line);
   CHECK_THROWS_WITH_AS(lead_pin(world, id, 0, Vec3(0, 0, 0), Vec3(0, 0, 1)),
                        Contains("the velocity of a pin does not lie in the world's plane, xy"), std::invalid_argument);
-  // A blow across the plane is borne by it.
+  // The plane bears a blow across it.
   apply_impulse(world, id, 5, Vec3(0, 0, 3));
   CHECK(soft_velocities(world, id)[5] == Vec3::Zero());
 }

@@ -27,7 +27,7 @@ struct Car {
   JointId joints[2];
 };
 
-/// Balls as wheels: of those a plane has the moments that they have in space.
+/// Balls as wheels: in a plane they have the moments that they have in space.
 Car add_car(World& world, const Motor& motor) {
   BodySettings body{.shape = {Box{Vec3(1, 0.2, 0.3)}}, .mass = 100.0};
   body.motion.pose.position = Vec3(0, 0.7, 0);
@@ -97,7 +97,7 @@ TEST_CASE("in a plane a car on two wheels rolls at the speed of its motors, clim
     const Motion moved = flat.motion(car.chassis), wanted = space.motion(other.chassis);
     CHECK(moved.pose.position.z() == 0);
     CHECK(near(moved.pose.position, wanted.pose.position, 5e-3));
-    // It has its speed by then, and its wheels roll: v = w r.
+    // By then it has its speed, and its wheels roll: v = w r.
     const double speed = flat.twist(car.chassis).linear.x();
     if (tilt == 0) CHECK(near(speed, 3, 1e-3));
     CHECK(speed > 1);

@@ -93,7 +93,7 @@ TEST_CASE("in a plane a ball rises again to e^2 of its height, at the time of th
 
 TEST_CASE("in a plane two discs part as momentum, energy and the line of their centers say") {
   planar::World world({.gravity = {0, 0}});
-  // They meet off center: at that moment the line of centers is 30 degrees to the way.
+  // They meet off center: at that moment the line of centers is at 30 degrees to the path.
   planar::BodySettings disc{.mass = 1.0, .friction = 0, .restitution = 1};
   const BodyId still = world.add(disc);
   disc.mass = 3.0;
@@ -173,7 +173,8 @@ TEST_CASE("in a plane rolling friction slows a disc by c g / (r (1 + k)), and ho
   run(world, 120);
   CHECK(near(world.motion(rolling).position.x(), 0.5 / a, 0.01));
   CHECK(std::abs(world.motion(rolling).velocity.x()) < 1e-9);
-  // Given to the ground, or to a disc and to what it rolls on: the larger counts. Of 1 and 1e6 kg alike, at 1e-3 m too.
+  // Given for the ground, or for a disc and for what it rolls on: the larger counts. The same at 1 and 1e6 kg, and at
+  // 1e-3 m.
   for (const double size : {0.001, 1.0}) {
     for (const double mass : {1.0, 1e6}) {
       for (const double steep : {0.9, 1.2}) {
@@ -285,7 +286,7 @@ TEST_CASE("in a plane a hinge lets a rod swing with its closed period, a rod kee
       joint.kind = planar::Distance{{1, 1}};
     const JointId id = world.add_joint(joint);
     const double length = hinged ? (1 + 0.01) / 3 / 0.5 : 1, period = 2 * pi * std::sqrt(length / 9.81);
-    // A quarter later it hangs straight.
+    // A quarter period later it hangs straight.
     double crossed = 0, before = 0;
     for (int i = 1; i <= 240 && crossed == 0; ++i) {
       before = world.motion(body).position.x();
@@ -351,7 +352,7 @@ TEST_CASE("in a plane nothing that is dropped gains energy, and a fast ball does
     world.step(flat_step);
     const double now = total_energy(world);
     CAPTURE(i);
-    // What overlap pushes apart is lifted a little.
+    // Removing overlap lifts it a little.
     REQUIRE(now < before + 2e-3 * std::abs(before));
     before = std::min(before, now);
   }

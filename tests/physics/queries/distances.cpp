@@ -5,7 +5,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// A solid as corners, edges and triangles with a skin: what counting out needs.
+/// A solid as corners, edges and triangles with a skin: what brute force needs.
 struct Framework {
   std::vector<Vec3> corners;
   std::vector<std::pair<Vec3, Vec3>> edges;
@@ -131,7 +131,7 @@ TEST_CASE("distances of simple pairs are their closed forms, with the points whe
   CHECK(plane.distance == doctest::Approx(0.5).epsilon(1e-15));
   CHECK(near(plane.on_b, Vec3(7, 1, -2), 1e-15));
   CHECK(near(plane.on_a, Vec3(7, 1.5, -2), 1e-15));
-  // Gaps of the smallest kind, and none.
+  // The smallest gaps, and no gap.
   for (const double gap : {1e-3, 1e-6, 1e-9, 1e-12}) {
     const Separation faces = distance({Box{{1, 1, 1}}}, at(0, 0, 0), {Box{{1, 1, 1}}}, at(2 + gap, 0.3, -0.2));
     CHECK(std::abs(faces.distance - gap) <= 1e-15);

@@ -57,7 +57,7 @@ TEST_CASE("a ray meets each solid where its closed form says") {
     CHECK(near(hit->point, c.from + c.distance * c.direction.stableNormalized(), 1e-13));
     CHECK(near(hit->normal, c.normal, 1e-7));
     CHECK(hit->normal.norm() == doctest::Approx(1).epsilon(1e-14));
-    // Its length is enough, or not; the same ray carried elsewhere.
+    // Its length is enough, or not; the same ray moved elsewhere.
     CHECK(cast_ray({c.solid}, {}, c.from, c.direction, hit->distance).has_value());
     CHECK(!cast_ray({c.solid}, {}, c.from, c.direction, std::nextafter(hit->distance, 0.0)).has_value());
     CHECK(!cast_ray({c.solid}, {}, c.from, -c.direction).has_value());
@@ -66,7 +66,7 @@ TEST_CASE("a ray meets each solid where its closed form says") {
       const Pose pose = any_pose(random, 10), offset = any_pose(random, 10);
       const Quat turn = pose.rotation * offset.rotation;
       const Vec3 from = pose.position + pose.rotation * (offset.position + offset.rotation * c.from);
-      // What only grazes may as well pass by.
+      // A ray that only grazes may as well miss.
       const std::optional<RayHit> moved =
           cast_ray({c.solid, offset}, pose, from, turn * (c.direction / c.direction.cwiseAbs().maxCoeff()));
       if (!moved) {
@@ -96,7 +96,7 @@ TEST_CASE("a ray that starts in a solid hits it at once, and one that starts on 
       REQUIRE(touching.has_value());
       CHECK(touching->distance == 0);
     }
-    // One ulp outside it is still met, or left.
+    // One ulp outside it is still hit, or left.
     CHECK(!cast_ray({solid}, {}, Vec3(1 + 4e-16, 0, 0), Vec3(1, 0, 0)).has_value());
     const std::optional<RayHit> outside = cast_ray({solid}, {}, Vec3(1 + 4e-16, 0, 0), Vec3(-1, 0, 0));
     REQUIRE(outside.has_value());
@@ -146,7 +146,7 @@ TEST_CASE("what is no ray is refused") {
 }
 
 TEST_CASE("a ray meets what is turned about an axis where one through its outline's corners would") {
-  // As many sides as there may be, from inside and from outside.
+  // With the most sides possible, from inside and from outside.
   Random random(5);
   for (int i = 0; i < 60; ++i) {
     const double size = std::pow(10, random.between(-4, 4));
@@ -206,7 +206,7 @@ TEST_CASE("along every ray nothing of a solid comes before the hit, and the hit 
     CHECK(start >= -1e-12 * size);
     const Vec3 direction = toward.normalized();
     const double length = hit ? hit->distance : 12 * size;
-    // A height is a distance at most, so that it is free to go on.
+    // A height is a lower bound of the distance, so it is safe to go on.
     double along = 0, least = start;
     for (int k = 0; k < 400 && along < length; ++k) {
       const double height = height_over(shape, pose, from + along * direction);

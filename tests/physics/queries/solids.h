@@ -1,6 +1,6 @@
 #pragma once
 
-// Shapes at random, and what they hold, told in another way than the library does.
+// Random shapes, and their interior, computed in another way than in the library.
 
 #include <tweenfall/physics/query.h>
 
@@ -44,7 +44,7 @@ inline Pose any_pose(Random& random, double room) {
   return {.position = random.vector(room), .rotation = random.rotation()};
 }
 
-/// How far a point is out of a solid: a bound from below outside, negative inside, 0 on its surface.
+/// How far a point is outside a solid: a lower bound outside, negative inside, 0 on its surface.
 inline double height_over(const Shape& shape, const Pose& node, const Vec3& point) {
   const Quat rotation = node.rotation * shape.offset.rotation;
   const Vec3 at = rotation.conjugate() * Vec3(point - node.position - node.rotation * shape.offset.position);

@@ -84,7 +84,7 @@ TEST_CASE("a stage's answers follow what comes and goes, also within a callback"
   stage.on_contact([&](const StageEvent& event) {
     ++told;
     for (const NodeId node : event.nodes) {
-      // The floor has no end, and the origin of the body on the path lies outside of it.
+      // The floor is infinite, and the origin of the body on the path lies outside of it.
       if (!stage.nodes()[node].name.starts_with("ball")) continue;
       const Vec3 place = stage.world(node).motion.pose.position;
       const std::vector<NodeId> here = overlapping(stage, {Sphere{1e-3}}, {.position = place});

@@ -115,7 +115,7 @@ TEST_CASE("whatever moves is free until it is hit, and touches there; what hits 
     const double off = std::max(std::abs(height_over(b, pose, hit->point)), height_over(a, there, hit->point)) / size;
     worst = std::max(worst, off);
     CHECK(off < 1e-9);
-    // One of the two lies before the tangent plane, the other behind it.
+    // One of the two is in front of the tangent plane, the other behind it.
     Pose back = there;
     back.position += 1e-6 * size * hit->normal;
     CHECK(distance(a, back, b, pose).distance > 0);
@@ -155,7 +155,7 @@ TEST_CASE("what lies on a surface goes along it and off it freely, and not into 
     REQUIRE(into.has_value());
     CHECK(into->fraction == doctest::Approx(gap / 4).epsilon(1e-3));
   }
-  // What does not go meets what it overlaps, and nothing else.
+  // A displacement of zero hits what overlaps, and nothing else.
   CHECK(!cast_shape(ball, {.position = Vec3(0, 2, 0)}, Vec3(0, 0, 0), floor, {}).has_value());
   CHECK(cast_shape(ball, {.position = Vec3(0, 0.5, 0)}, Vec3(0, 0, 0), floor, {})->inside);
 }

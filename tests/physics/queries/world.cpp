@@ -9,7 +9,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// A world in which chance adds, removes, moves and steps, and everything asked of it one body after another.
+/// A world in which bodies are added, removed, moved and stepped at random, with every query answered body by body.
 struct Restless {
   World world;
   Random random;
@@ -168,7 +168,7 @@ TEST_CASE("a world answers several threads at once, a field in its midst, and a 
   world.set_motion(restless.bodies[0], {.pose = {.position = Vec3(0, 50, 0)}});
   CHECK(nearest_body(world, Vec3(0, 60, 0))->body == restless.bodies[0]);
   CHECK(nearest_body(copy, Vec3(0, 60, 0))->distance > 40);
-  // Another body of the same number at the same place.
+  // Another body of the same index at the same place.
   World first, second;
   first.add({.shape = {Sphere{1}}, .fixed = true});
   second.add({.shape = {Sphere{2}}, .fixed = true});
@@ -220,6 +220,6 @@ TEST_CASE("a ray through a hundred thousand bodies looks at few of them") {
   for (int i = 0; i < 100; ++i)
     if (cast_ray(world, random.vector(100), random.vector(1), without_end, counting)) ++hits;
   CHECK(hits > 0);
-  // About thirty balls in a cylinder of their boxes' width would be met by a ray that ends nowhere.
+  // About thirty balls in a cylinder as wide as their boxes would be hit by a ray without an end.
   CHECK(seen < 100 * 40);
 }

@@ -15,7 +15,7 @@ Pose at(const Vec3& position, const Quat& rotation = Quat(1, 0, 0, 0)) {
   return pose;
 }
 
-/// A top on four legs; the floor is under its feet.
+/// A table top on four legs; the floor is under its feet.
 Compound table() {
   std::vector<Shape> parts = {{Box{{0.6, 0.03, 0.4}}, at({0, 0.72, 0})}};
   for (const double x : {-0.5, 0.5})

@@ -104,7 +104,7 @@ TEST_CASE("points twice, inside, in faces and on edges change nothing") {
     for (int y = 0; y <= 5; ++y)
       for (int z = 0; z <= 4; ++z) points.emplace_back(x / 6.0, y / 5.0, z / 4.0);
   for (int i = 0; i < 100; ++i) points.push_back(points[random.bits() % points.size()]);
-  // Turned, so that no coordinate is exact, and as single precision leaves it.
+  // Turned, so that no coordinate is exact, and rounded to single precision.
   const Quat turn = random.rotation();
   for (const bool single : {false, true}) {
     std::vector<Vec3> placed;
@@ -129,7 +129,7 @@ TEST_CASE("hulls of random points are closed, convex and around them, whatever t
     for (int i = 0; i < count; ++i) {
       Vec3 point = random.vector(1);
       if (kind == 1) point.normalize();
-      if (kind == 2) point = (point * 3).array().round();  // a coarse grid: much in one plane
+      if (kind == 2) point = (point * 3).array().round();  // a coarse grid: many points in one plane
       if (kind == 3) point.y() *= 1e-3;                    // a sheet
       if (kind == 4) point.y() = point.y() > 0 ? 1 : -1;   // two planes
       if (kind == 5) point += 1e-7 * random.vector(1) + Vec3(1000, -200, 30);
@@ -187,7 +187,7 @@ TEST_CASE("a turned profile comes to the cylinder's and the cone's mass properti
   };
   CHECK(error_of_cylinder(120) < 5e-4);
   CHECK(error_of_cone(120) < 1e-3);
-  // With the square of the side's length.
+  // In proportion to the square of the side's length.
   CHECK(near(error_of_cylinder(30) / error_of_cylinder(120), 16, 0.03));
   CHECK(near(error_of_cone(30) / error_of_cone(120), 16, 0.03));
 }
@@ -210,7 +210,7 @@ TEST_CASE("a swept beam bent at a kink has the hull around its bend") {
   const SurfaceMesh bent = sweep(square, line({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}), options);
   const ConvexHull hull(bent);
   check_polyhedron(hull, bent.positions);
-  // The bend's triangle is filled: corner, two squared ends, and the slope between them.
+  // The triangle of the bend is filled: corner, two square ends, and the slope between them.
   CHECK(hull.measures().volume > 2 * measure(bent).volume);
 }
 

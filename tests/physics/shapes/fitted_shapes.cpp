@@ -23,7 +23,7 @@ TEST_CASE("the hull around a mesh of many points has no more vertices than it ma
     double out = 0;
     for (const Vec3& point : points)
       for (const ConvexHull::Face& face : hull.faces()) out = std::max(out, face.normal.dot(point) - face.offset);
-    // Of a ball, what 256 points leave out: about 2 / 256 of its radius.
+    // What 256 points leave out of a ball: about 2 / 256 of its radius.
     CHECK(out < 0.025);
     CHECK(near(hull.measures().volume, 4 * pi / 3 * 0.48, 0.15));
   }
@@ -95,7 +95,7 @@ TEST_CASE("the capsule around the points of a capsule is nearly that capsule") {
   const Vec3 place(1, -2, 3), axis = turn * Vec3(0, 1, 0);
   std::vector<Vec3> points;
   for (int i = 0; i < 4000; ++i) {
-    // Evenly over the surface: of the sides as much as their share is, of the ends the rest.
+    // Evenly over the surface: sides and ends by their share of it.
     const Vec3 out = random.vector(1).normalized();
     const bool side = random.between(0, 1) < 0.6;
     const Vec3 flat = Vec3(out.x(), 0, out.z()).normalized();

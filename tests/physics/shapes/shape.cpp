@@ -38,7 +38,7 @@ TEST_CASE("the parallel-axis theorem turns a rod about its center into a rod abo
 TEST_CASE("an offset moves the center of mass and turns the inertia") {
   Shape shape{Box{Vec3(1, 2, 3)}};
   shape.offset.position = Vec3(1, 0, -2);
-  shape.offset.rotation = Quat(std::sqrt(0.5), 0, 0, std::sqrt(0.5));  // a quarter about z: x and y change places
+  shape.offset.rotation = Quat(std::sqrt(0.5), 0, 0, std::sqrt(0.5));  // a quarter turn about z: x and y change places
   const MassProperties properties = mass_properties(shape, 12);
   CHECK(properties.center == Vec3(1, 0, -2));
   CHECK(near(Vec3(properties.inertia.diagonal()), Vec3(4 * (1 + 9), 4 * (4 + 9), 4 * (1 + 4)), 1e-14));

@@ -18,7 +18,7 @@ bool holds(const Cone& c, const Vec3& p) {
   return std::abs(p.y()) <= c.half_height &&
          Vec2(p.x(), p.z()).norm() <= c.radius * (c.half_height - p.y()) / (2 * c.half_height);
 }
-/// Some ball on the way from one to the other holds it.
+/// Some ball on the way from one to the other contains it.
 bool holds(const TaperedCapsule& c, const Vec3& p) {
   for (int i = 0; i <= 400; ++i) {
     const double share = i / 400.0, radius = c.bottom_radius + share * (c.top_radius - c.bottom_radius);
@@ -27,7 +27,7 @@ bool holds(const TaperedCapsule& c, const Vec3& p) {
   return false;
 }
 
-/// Sums over a fine grid, by symmetry over a quarter turn's plane of radius and height.
+/// Sums over a fine grid, by symmetry over the half-plane of radius and height.
 template <class Turned>
 MassProperties counted(const Turned& solid, double reach) {
   constexpr int parts = 300;
@@ -142,7 +142,7 @@ TEST_CASE("bounds of turned solids touch them on all six sides") {
       const Bounds box = bounds(shape, pose);
       for (int axis = 0; axis < 3; ++axis)
         for (const double side : {-1.0, 1.0}) {
-          // A wall just there is met by a hair, and no more.
+          // A wall exactly there is just touched, and no more.
           const Vec3 normal = -side * Vec3::Unit(axis);
           const double at = side > 0 ? box.high[axis] : box.low[axis];
           const Manifold met = collide(shape, pose, {Plane{normal, normal[axis] * at}}, {}, 1e-9);
@@ -248,7 +248,7 @@ TEST_CASE("a cone stands on its base, and lies on its side at the half angle of 
 }
 
 TEST_CASE("a rolling tapered capsule goes around the point in which its side meets the floor") {
-  // Its side lies on the floor; the tip of the cone that it is a part of stays where it is.
+  // Its side lies on the floor; the tip of the cone that it is a part of stays in place.
   const TaperedCapsule capsule{0.3, 0.15, 0.5};
   const double sine = (0.3 - 0.15) / 1.0, from_tip = 0.3 / sine;  // from the tip to the bottom ball's center
   const double rise = std::asin(sine);
@@ -275,7 +275,7 @@ TEST_CASE("a rolling tapered capsule goes around the point in which its side mee
     CAPTURE(steps);
     CHECK(most_off < 6e-4);
     CHECK(near(world.motion(body).pose.position, settings.motion.pose.position, 20.0 / steps));
-    // What the turning of its spin costs is of the first order in the step.
+    // The error from turning its spin is of first order in the step.
     const double gained = std::abs(energy_of(world, body, 9.81) / before - 1);
     CHECK(gained < 5e-3);
     CHECK(gained < 0.3 * gain);

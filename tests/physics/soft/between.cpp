@@ -12,7 +12,7 @@ namespace {
 
 constexpr double hold_on = std::numeric_limits<double>::infinity();
 
-/// A net of wide cells, its rim held: 2 m by 2 m in the plane y = 0.
+/// A net of wide cells, held at its rim: 2 m by 2 m in the plane y = 0.
 SoftSettings net(SoftSolver solver) {
   SoftSettings made = cloth({.corner = {-1, 0, -1},
                              .along = {2, 0, 0},
@@ -131,7 +131,7 @@ TEST_CASE("soft bodies with a thickness meet each other, by the mean of both and
       nearest = std::min(nearest, (soft_positions(world, a)[0] - soft_positions(world, b)[0]).norm());
     }
     CHECK(near(momentum_of(world, a) + momentum_of(world, b), Vec3(-0.2, 0, 0), 1e-12));
-    // Neither bounces: both go on with their common velocity.
+    // Neither bounces: both continue with their common velocity.
     if (nearest > 0.02) CHECK(near(soft_velocities(world, a)[0], Vec3(-0.25, 0, 0), 1e-9));
     return nearest;
   };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// Ropes, a cloth, a soft box and a balloon among bodies, of both solvers; some of it tears.
+/// Ropes, a cloth, a soft box and a balloon among bodies, with both solvers; some of it tears.
 World varied(int threads = 0) {
   World world({.threads = threads});
   world.add({.shape = {Plane{}}, .fixed = true});

@@ -15,7 +15,7 @@ SoftSettings hammock(SoftSolver solver) {
   return sheet;
 }
 
-/// What a soft body gives its hooks, N.
+/// The force of a soft body on its hooks, N.
 Vec3 borne(const World& world, SoftId id) {
   Vec3 sum(0, 0, 0);
   for (const SoftPinReading& reading : soft_pins(world, id)) sum += reading.force;
@@ -131,8 +131,8 @@ TEST_CASE("what hangs at rest weighs on its rope as much as it weighs, whatever 
     }
 }
 
-// Of a bar on two ropes each bears half; it hangs lower by its weight over both their stiffnesses, and not by how far
-// it would fall in a sub-step.
+// A bar on two ropes loads each with half; it hangs lower by its weight divided by the sum of their stiffnesses, and
+// not by how far it would fall in a sub-step.
 TEST_CASE("soft bodies that hold one body bear it together") {
   for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs})
     for (const double part : {1, 4}) {
@@ -197,7 +197,7 @@ TEST_CASE("no node of a rope passes a thin wall, and none of a cloth a moving on
   }
 }
 
-// Coulomb: what lies on a slope slides where its tangent is above the friction, and then as g (sin - friction cos).
+// Coulomb: a body on a slope slides if its tangent is above the friction, and then at g (sin - friction cos).
 TEST_CASE("a cloth lies on a slope that is less steep than its friction, and slides down one that is steeper") {
   for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs})
     for (const double slope : {0.3, 0.7}) {

@@ -7,7 +7,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// Two point masses of nothing but a thickness.
+/// Two point masses with nothing but a thickness.
 SoftSettings two_beads(SoftSolver solver) {
   SoftSettings beads;
   beads.positions = {Vec3(-0.3, 0, 0), Vec3(0.3, 0.02, 0)};
@@ -42,7 +42,8 @@ TEST_CASE("nodes that meet come no nearer than a thickness, and keep their momen
       CHECK(nearest_two(world, id, 1) > 0.1 - 1e-9);
     }
     CHECK(near(momentum_of(world, id), before, 1e-12));
-    // Of 3 m/s what is across the line between them, a fifth of which is their offset, is left; along it nothing.
+    // Of 3 m/s, the part across the line between them remains, whose offset is a fifth of their distance; along it
+    // nothing.
     const Vec3 parting = soft_velocities(world, id)[1] - soft_velocities(world, id)[0];
     CAPTURE(parting.transpose());
     CHECK(near(parting.norm(), 3 * 0.02 / 0.1, 0.03));
@@ -90,7 +91,7 @@ TEST_CASE("what is deep in itself is let out slowly, ten thousand nodes in one p
   step(deep, 0.5);
   pair.positions = {Vec3(0, 0, 0), Vec3(0.3, 0, 0)};
   pair.velocities = {Vec3(2, 0, 0), Vec3(-2, 0, 0)};
-  pair.thickness = 1e-3;  // they go farther in a sub-step, and pass
+  pair.thickness = 1e-3;  // they move farther in a sub-step, and pass
   const SoftId fast = add_soft(deep, pair);
   step(deep, 0.5);
   CHECK(all_finite(deep, id));

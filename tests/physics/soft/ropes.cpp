@@ -5,7 +5,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// Parameter a of the catenary y = a cosh(x / a) of this length between ends at one height, this far apart.
+/// Parameter a of the catenary y = a cosh(x / a) of this length between ends at the same height, this far apart.
 double catenary_parameter(double span, double length) {
   double low = 1e-3 * span, high = 1e3 * span;
   for (int i = 0; i < 200; ++i) {
@@ -61,7 +61,7 @@ TEST_CASE("a rope between two hooks hangs as a catenary, by either solver") {
   }
 }
 
-// By the same closed form, at the sub-steps that a rope has unless told otherwise.
+// By the same closed form, at the default sub-steps of a rope.
 TEST_CASE("a rope hangs as a catenary however many links it has and however tight it is, by constraints as they are") {
   for (const int links : {40, 100, 400})
     for (const double slack : {0.05, 0.3, 1.0}) {
@@ -94,8 +94,8 @@ TEST_CASE("what hangs on a rope may be two thousand times as heavy, and a rope t
   for (const Vec3& velocity : soft_velocities(world, held)) CHECK(velocity.norm() < 1);
 }
 
-// A rope of weight W and stiffness EA that hangs from one end is longer by W / EA half its length; steps far longer
-// than its slowest mode lead there at once, if the last node hears of the first.
+// A rope of weight W and stiffness EA that hangs from one end is longer by W / EA times half its length; steps far
+// longer than its slowest mode lead there at once, if the first node affects the last.
 TEST_CASE("a rope of thousands of springs is as long as its weight makes it, after a few long steps") {
   SoftSettings line = rope({.to = {0, -1, 0}, .links = 4000, .mass = 0.4, .stiffness = 1000, .bending = 1e-4});
   line.solver = SoftSolver::springs;
@@ -144,7 +144,8 @@ TEST_CASE("a plucked rope swings in its first mode, and its hook bears its weigh
   }
 }
 
-// What swings on a rope is as fast as it has fallen, however stiff the rope: its springs keep next to nothing.
+// A bob that swings on a rope is as fast as its fall makes it, however stiff the rope: its springs store almost
+// nothing.
 TEST_CASE("springs of any stiffness give what hangs on them no energy") {
   for (const double stiffness : {1e6, 1e11, 1e12, 1e15}) {
     CAPTURE(stiffness);
@@ -232,7 +233,7 @@ TEST_CASE("a node pinned on the way holds, follows where its pin is led, and fli
       REQUIRE(near(soft_velocities(world, id)[3], velocity, 1e-9));
     }
 
-    // Of two pins of one node the later holds.
+    // If a node has two pins, the later one holds.
     const Vec3 elsewhere = soft_positions(world, id)[3] + Vec3(0, 0.01, 0);
     pin(world, id, {.node = 3, .point = elsewhere});
     CHECK(soft_pins(world, id).size() == 1);
@@ -249,7 +250,7 @@ TEST_CASE("a node pinned on the way holds, follows where its pin is led, and fli
 }
 
 TEST_CASE("a hanging spring is longer by the weight over its stiffness, however many sub-steps it takes") {
-  // One mass on one edge, and a chain: under its own weight and a load, sum of what each link bears over its stiffness.
+  // One mass on one edge, and a chain: under its own weight and a load, the sum of each link's load over its stiffness.
   for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs})
     for (const double sub_step : {1.0 / 240, 1.0 / 960, 1.0 / 3840})
       for (const int iterations : {1, 5}) {

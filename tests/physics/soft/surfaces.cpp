@@ -42,7 +42,7 @@ TEST_CASE("a cloth of fine cells, however stiff, swings no faster than its fall 
     const double start = energy_of(world, id);
     for (int n = 0; n < 240; ++n) {
       world.step(1.0 / 240);
-      // What so stiff edges hold is as far off as their lengths are: by little.
+      // Bodies held by such stiff edges are off by as much as their lengths: little.
       const SoftEnergy energy = soft_energy(world, id);
       REQUIRE(energy.kinetic + energy.weight <= start);
       REQUIRE(energy.elastic < 0.25 * start);
@@ -110,7 +110,7 @@ TEST_CASE("a strip of cloth stretches by its load over its width and stiffness")
   World world;
   const SoftId id = add_soft(world, strip);
   step(world, 3, 1.0 / 120);
-  // A mesh of equal triangles resists as a sheet of Poisson's ratio 1/3 (Van Gelder, 1998): somewhat more than its
+  // A mesh of equal triangles resists like a sheet of Poisson's ratio 1/3 (Van Gelder, 1998): somewhat more than its
   // edges along the load alone.
   const double stretched = -soft_positions(world, id)[102].y() - 1;
   CHECK(stretched == doctest::Approx(load * 9.81 / (0.2 * 1000)).epsilon(0.25));

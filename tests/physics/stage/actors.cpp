@@ -12,13 +12,13 @@ namespace {
 
 constexpr double g = 9.81;
 
-/// 1000 kg on four wheels at 20 m/s, braked whole from `brake_at` on.
+/// 1000 kg on four wheels at 20 m/s, braked fully from `brake_at` on.
 StageDescription braking_car(double grip, double brake_at) {
   StageDescription stage;
   stage.nodes.push_back({.name = "road", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}});
   BodyDescription body{.shape = {Box{Vec3(1.6, 0.1, 0.7)}}, .mass = 1000.0};
   body.twist.linear = Vec3(20, 0, 0);
-  // As the springs bear it: 1000 kg on four of 30,000 N/m
+  // At the height at which the springs carry it: 1000 kg on four of 30,000 N/m
   stage.nodes.push_back({.name = "car", .rest = {.position = Vec3(0, 0.6 - 1000 * g / 120000, 0)}, .body = body});
   VehicleDescription car{.name = "car", .chassis = 1};
   for (const double x : {1.3, -1.3})
@@ -33,7 +33,7 @@ StageDescription braking_car(double grip, double brake_at) {
   return stage;
 }
 
-/// A jet on an arm that turns about the origin, over the ground.
+/// A jet on an arm that turns about the origin, above the ground.
 StageDescription jet() {
   StageDescription stage;
   stage.nodes.push_back({.name = "ground", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}});
@@ -74,10 +74,10 @@ TEST_CASE("a car on a stage, its wheels locked, stops after v^2 / (2 mu g)") {
     Stage stage(braking_car(grip, 0.5));
     stage.advance_to(0.5);
     const double v = stage.twist(1).linear.x(), from = stage.world(1).motion.pose.position.x();
-    // The wheels had to be set going first: m v + I v / r^2 = m v0
+    // The wheels had to be set turning first: m v + I v / r^2 = m v0
     CHECK(v == doctest::Approx(20 * 1000 / (1000 + 4 / 0.09)).epsilon(1e-4));
     stage.advance_to(0.5 + v / (grip * g) + 1);
-    // Half a percent: the tyre's grip takes a few hundredths of a second to build up, and the body dives.
+    // Half a percent: the tire's grip takes a few hundredths of a second to build up, and the body dives.
     CHECK(stage.world(1).motion.pose.position.x() - from == doctest::Approx(v * v / (2 * grip * g)).epsilon(0.005));
     CHECK(stage.twist(1).linear.norm() < 1e-3);
   }

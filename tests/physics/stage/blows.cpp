@@ -67,7 +67,7 @@ TEST_CASE("a blow without rebound frees what it strikes at the impact, wherever 
       CHECK(std::abs(run.twist(0).linear.x() - common) < 1e-6);
       CHECK(std::abs(run.twist(1).linear.x() - common) < 1e-6);
       CHECK(std::abs(greatest_contact(run) - whole) < 1e-6 * whole);
-      // A little more than the blow does not fire.
+      // A threshold slightly above the blow does not fire.
       stage.rules = {on_contact("s", {.impulse = 1.001 * whole})};
       Stage kept(played(stage, "s", "position", moving({0, 0, 0}, {-1.3, 0, 0})));
       kept.advance_to(1);
@@ -119,7 +119,7 @@ TEST_CASE("a reported blow is none of the weight that presses on, wherever in a 
         for (const StageEvent& event : run.events())
           if (event.name == "contact" && event.time > 0.2 && blow == 0) blow = event.impulse;
         const double whole = 2 * std::sqrt(2 * 9.81 * fall);
-        // What falls on a body that could itself fall meets it at the speed of a step's start.
+        // What falls on a body that could itself fall meets it at the speed of the step's start.
         const double within = 5e-3 * whole + (on_box ? 2 * 9.81 * step : 0);
         CHECK(std::abs(blow - whole) < within);
       }
@@ -177,7 +177,7 @@ TEST_CASE("a keyed body that runs into the floor or into another keyed one is fr
         CHECK(std::abs(run.handoffs()[0].time - (height - 0.1) / 2) < 1e-6);
         CHECK(run.handoffs()[0].after.twist.linear.y() == doctest::Approx(-2).epsilon(1e-9));
         CHECK(std::abs(run.world(1).motion.pose.position.y() - 0.1) < 2e-3);
-        // The weight of the rest of the step comes on top.
+        // The weight for the rest of the step comes on top.
         CHECK(greatest_contact(run) >= 0.8 * (1 - 1e-6));
         CHECK(greatest_contact(run) <= 0.8 + 0.4 * standard_gravity * step + 1e-6);
       }

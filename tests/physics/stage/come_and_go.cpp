@@ -31,7 +31,7 @@ StageDescription cart() {
   return description;
 }
 
-/// Processor time of adding so many nodes one by one, looking at each, and removing each.
+/// Processor time of adding this many nodes one by one, reading each, and removing each.
 double seconds_of(std::size_t count, bool bodies) {
   StageDescription description;
   description.world.gravity = Vec3(0, 0, 0);
@@ -65,7 +65,7 @@ TEST_CASE("nodes that come and go one by one take a time that grows with their n
       many = std::min(many, seconds_of(8000, bodies));
     }
     MESSAGE("8,000 nodes " << std::string(bodies ? "with" : "without") << " bodies: " << 1e3 * many << " ms");
-    CHECK(many < 80 * few);  // the square would be 256 times
+    CHECK(many < 80 * few);  // quadratic time would be 256 times
   }
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("a node that takes the name of one that left has the tracks of that na
   CHECK(near(stage.world(hat).motion.pose.position, Vec3(2, 1.2, 0), 1e-12));
   CHECK(near(stage.twist(rider).linear, Vec3(1, 0, 0), 1e-12));
   CHECK(near(before.at(2).pose.position, Vec3(2, 0, 0), 1e-12));
-  // Taken back, what hangs below a node that came later settles with it.
+  // When taken back, what hangs below a node that was added later settles with it.
   stage.release(rider);
   stage.advance_to(2.2);
   const Vec3 shown = stage.world(hat).motion.pose.position;

@@ -8,7 +8,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// A body on a tumbling path is let go above a floor on which three boxes, a sphere and a capsule lie about, and is
+/// A body on a tumbling path is let go above a floor on which three boxes, a sphere and a capsule lie, and is
 /// taken back: every solid, contact, friction, bounce, and both hand-offs.
 StageDescription small_stage() {
   StageDescription stage = tumbler(1.0 / 240);

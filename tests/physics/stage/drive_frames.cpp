@@ -49,7 +49,7 @@ TEST_CASE("what is carried along by a keyed parent is pulled just as in the worl
 }
 
 TEST_CASE("a hand keeps its place beside a link that falls, which in the world it would stay behind") {
-  // What carries it is expected where its weight takes it; the pull is off by no more than a step's worth of fall.
+  // The carrying body is predicted where its weight takes it; the pull is off by at most a step's worth of fall.
   const double h = 1.0 / 240, off = standard_gravity * h * h;
   for (const Drive::Frame frame : {Drive::Frame::parent, Drive::Frame::anchor}) {
     Stage stage(arm(Drive::free(), Drive::free(), carried(frame)));

@@ -7,7 +7,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// A ball of 1 kg that hangs on its drive, whose frequency a clip gives.
+/// A ball of 1 kg that hangs on its drive, whose frequency comes from a clip.
 StageDescription hanging(const Curve<double>& hz, double duration = 100) {
   StageDescription stage;
   stage.nodes = {{.name = "arm",

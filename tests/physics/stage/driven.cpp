@@ -12,7 +12,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// 1000 kg on four wheels that stand, with a script that says nothing.
+/// 1000 kg on four standing wheels, with an empty script.
 StageDescription parked_car() {
   StageDescription stage;
   stage.nodes.push_back({.name = "road", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}});
@@ -31,7 +31,7 @@ StageDescription parked_car() {
   return stage;
 }
 
-/// From step to step what an agent sees decides what it does.
+/// From step to step, what an agent sees decides what it does.
 void drive_about(Stage& stage, double until) {
   while (stage.time() < until) {
     const double ahead = stage.world(1).motion.pose.position.x();
@@ -51,7 +51,7 @@ TEST_CASE("a car that is driven from outside goes as its engine drives it, and s
   CHECK(std::abs(stage.twist(1).linear.x()) < 1e-6);
   stage.control("car", {.throttle = 1});
   stage.advance_to(2.2003);
-  // T / r on four wheels over the mass and that of the wheels
+  // T / r on four wheels, divided by the mass plus that of the wheels
   CHECK(near(stage.twist(1).linear.x(), 2 * (4 * 150 / 0.3) / (1000 + 4 / 0.09), 2e-2));
   stage.control("car", {.throttle = 5});  // counts as 1
   stage.advance_to(3.2003);
@@ -82,10 +82,10 @@ TEST_CASE("what drove a car, given again, leads to the same bits; so do going ba
   CHECK(loaded.state_hash() == played.state_hash());
   played.advance_to(end);
   CHECK(played.state_hash() == at_end);
-  // What was held when it was saved is held on; what came later comes again.
+  // What was controlled when it was saved stays controlled; later controls come again.
   loaded.advance_to(end);
   CHECK(loaded.state_hash() == at_end);
-  // Another script does not matter while all of it is held.
+  // Another script does not matter while everything is controlled.
   StageDescription scripted = parked_car();
   scripted.vehicles[0].throttle = Strength::formula("sin(t)");
   Stage held(scripted), free(parked_car());
@@ -113,7 +113,7 @@ TEST_CASE("a vehicle that is not there and numbers that are none are refused, an
 
 TEST_CASE("a stage's hash tells of its wheels and particles, not of its bodies alone") {
   Stage still(parked_car()), turned(parked_car());
-  // In the air a wheel that spins moves nothing else.
+  // In the air a spinning wheel moves nothing else.
   for (Stage* const stage : {&still, &turned}) stage->advance_to(0.05);
   turned.control("car", {.steer = 0.5});
   CHECK(still.state_hash() != turned.state_hash());
@@ -170,7 +170,7 @@ TEST_CASE("a formula that leaps tells when, and one that is only steep does not"
   for (const char* text : {"sin(1000 * t)", "smoothstep(0.499, 0.501, t)", "100 * t / (1 + t)", "atan2(sin(t), cos(t))",
                            "tanh(1e4 * (t - 0.5)) + floor(t)", "abs(t - 0.5)", "max(t, 0.5)", "1 / (t - 0.5)"})
     CHECK_MESSAGE(leap(text, 0.4985, 0.5015) == never, text);
-  // Beside the leap each side has its own value, as far as sums of steps may be off.
+  // Near the jump each side has its own value, as far as sums of steps may be off.
   const Strength strength = Strength::formula("floor(t)");
   for (const double off : {-3e-10, 0.0, 3e-10}) {
     CHECK(strength.at(2 + off, Side::out) == 2);

@@ -1,4 +1,4 @@
-// Graphs on a stage that are told something while it runs.
+// Graphs on a stage that get inputs while it runs.
 
 #include "support.h"
 
@@ -194,7 +194,7 @@ TEST_CASE("a body that a graph leads over the seam of a loop is not thrown by it
   stage.advance_to(4.002);
   CHECK(near(stage.world(0).motion.pose.position.x(), 2 * 0.002, 1e-9));
   CHECK(near(stage.twist(0).linear.x(), 2, 1e-9));
-  // What rides on the world's idea of its speed: the push on another is that of 2 m/s, not of 8 m in a step.
+  // A rider feels the world's velocity of it: the push on another body is that of 2 m/s, not of 8 m in a step.
   StageDescription pushing = led();
   pushing.clips[0].loop = {LoopMode::repeat};
   pushing.nodes[1].rest.position = {0.21, 0, 0};

@@ -227,7 +227,7 @@ TEST_CASE(
     for (int call = 0; call < 100; ++call) {
       try {
         stage.advance(1);
-      } catch (const NotFinite& fault) {  // as of a world
+      } catch (const NotFinite& fault) {  // as for a world
         CHECK(fault.time > 1);
         CHECK(stage.time() > call);  // what was reached, not where the call began
         return stage.time();

@@ -126,7 +126,7 @@ TEST_CASE("drag that explicit integrators cannot follow is told with its force, 
   CHECK(told(Integrator::rk4, 200, 12) == 1);
   CHECK(told(Integrator::exact_quadratic, 200, 12) == 0);
   CHECK(told(Integrator::backward_euler, 200, 12) == 0);
-  // By the rate 2 c v / m, 1 over a step of 1/240 s.
+  // By the rate 2 c v / m, 1 divided by a step of 1/240 s.
   CHECK(told(Integrator::explicit_euler, 200, 1.19) == 0);
   CHECK(told(Integrator::explicit_euler, 200, 1.21) == 1);
   // A fall ends at sqrt(m g / c), where the rate is 2 sqrt(g c / m).

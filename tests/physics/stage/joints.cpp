@@ -27,7 +27,7 @@ JointDescription joint_at(const StageDescription& stage, const std::string& name
   return {.name = name, .a = a, .b = b, .frame_a = frames.a, .frame_b = frames.b, .kind = kind};
 }
 
-/// A hand that swings to and fro at height 2 and a bob 1 m below it.
+/// A hand that swings back and forth at height 2 and a bob 1 m below it.
 StageDescription hung() {
   StageDescription stage;
   stage.nodes = {ball_at("hand", Vec3(0, 2, 0)), ball_at("bob", Vec3(0, 1, 0), 2)};
@@ -79,11 +79,11 @@ TEST_CASE("a joint holds a free body to a keyed one, and goes on holding when it
     REQUIRE(reading);
     const bool both_keyed = stage.owner(hand) == Owner::keyed && stage.owner(bob) == Owner::keyed;
     if (both_keyed) {
-      // Nothing to do between two that follow their paths, once a step has shown it.
+      // Between two bodies that follow their paths it does nothing, once a step has shown this.
       if (stage.time() > 2 + 1.5 / 240) CHECK(reading->force.norm() == 0);
       continue;
     }
-    if (stage.time() > 2 && stage.time() < 2.5) continue;  // it is brought together again
+    if (stage.time() > 2 && stage.time() < 2.5) continue;  // it is pulled together again
     CHECK(reading->gap < 1e-4);
     ++held;
     const Motion at = stage.world(bob).motion;

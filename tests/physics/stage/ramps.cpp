@@ -47,7 +47,7 @@ TEST_CASE("along a ramp the frequency of a drive is even in its logarithm, and i
     CHECK(drive.hz == doctest::Approx(hz).epsilon(1e-12));
     CHECK(drive.zeta == doctest::Approx(0.5 + share).epsilon(1e-12));
     CHECK(drive.max_force == doctest::Approx(400 - 200 * share).epsilon(1e-12));
-    CHECK(drive.max_torque == infinite);  // between a limit and none there is none
+    CHECK(drive.max_torque == infinite);  // between a limit and no limit there is no limit
   }
   stage.advance_to(2.31);
   CHECK(stage.drive(0) == description.rules[0].to);
@@ -124,7 +124,7 @@ TEST_CASE("a body on a ramp moves as the equation of its drive says, the nearer 
     StageDescription description = swinging(Drive::keyed(), step);
     Rule soften = ramp_at(start, {.hz = 0.5, .zeta = zeta}, seconds);
     description.nodes[0].body->drive = Drive{.hz = 6, .zeta = zeta};
-    // Until then it is on its path: keyed, and driven at the ramp's first frequency from the instant itself.
+    // Until then it is on its path: keyed; and from that very instant driven at the ramp's first frequency.
     description.nodes[0].body->drive = Drive::keyed();
     Rule loosen = release_at(start, "ball");
     loosen.to = {.hz = 6, .zeta = zeta};
@@ -149,7 +149,7 @@ TEST_CASE("what a saturated drive gives along a ramp of its force is the sum of 
   const double before = stage.twist(0).linear.x();
   CHECK(before == doctest::Approx(0.4 * 2).epsilon(0.02));
   stage.advance_to(1.5);
-  // The force of a step is that of its start: the mean of 2 to 10 N, less half a step's worth.
+  // The force of a step is that at its start: the mean of 2 to 10 N, minus half a step's worth.
   CHECK(stage.twist(0).linear.x() - before == doctest::Approx(6 - 8.0 / 240 / 2).epsilon(1e-9));
 }
 
@@ -280,7 +280,7 @@ TEST_CASE("a caller hands a body over along a ramp, and the log of inputs does i
   stage.hand_over(0, {.to = {.hz = 3, .max_force = 40, .frame = Drive::Frame::parent}, .ramp = 0.4});
   stage.advance_to(0.51);
   CHECK(stage.drive(0).hz == doctest::Approx(std::sqrt(3 * 1000.0)).epsilon(1e-9));
-  stage.hand_over(0, {.to = Drive::free(), .ramp = 0.2});  // in place of the ramp that was
+  stage.hand_over(0, {.to = Drive::free(), .ramp = 0.2});  // in place of the earlier ramp
   stage.advance_to(2);
   CHECK(stage.owner(0) == Owner::free);
   CHECK(stage.handoffs().back().time == doctest::Approx(0.71).epsilon(1e-12));
@@ -311,7 +311,7 @@ TEST_CASE("changes that cannot be are refused with what is wrong") {
   Stage stage(swinging(Drive::keyed()));
   CHECK_THROWS_AS(stage.hand_over(0, {.ramp = -1}), std::invalid_argument);
   CHECK_THROWS_AS(stage.hand_over(9, {}), std::invalid_argument);
-  // A plane has no mass: it can be taken back at once, and not driven on the way.
+  // A plane has no mass: it can be taken back at once, but not driven in between.
   StageDescription plane = swinging(Drive::keyed());
   plane.nodes[0].body->shape = {Plane{{0, 1, 0}}};
   plane.rules = {ramp_at(0.1, Drive::keyed(), 0.5)};
@@ -319,7 +319,7 @@ TEST_CASE("changes that cannot be are refused with what is wrong") {
 }
 
 TEST_CASE("a ramp that begins at the caller's word between two steps is found again, bit by bit") {
-  // On a step's end, a moment beside it, and between.
+  // At a step's end, a moment beside it, and in between.
   for (const double time : {0.3, 0.3 + 4e-10, 0.3 - 4e-10, 0.3 + 1.0 / 700, 0.3 + 1.0 / 300})
     for (const Drive& to : {Drive{.hz = 5, .max_force = 30}, Drive::free()}) {
       CAPTURE(time);

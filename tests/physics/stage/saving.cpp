@@ -83,7 +83,7 @@ StageDescription busy(double step = 1.0 / 240) {
   return stage;
 }
 
-/// What a caller does on the way, by the number of the frame.
+/// What a caller does during the run, by the number of the frame.
 void meddle(Stage& stage, int frame) {
   if (frame == 12) {
     stage.add(solid("late", {Sphere{0.15}}, {1.8, 3.4, 0.1}));
@@ -167,7 +167,7 @@ TEST_CASE("a stage that was saved and loaded at every frame goes on in the same 
     CHECK(happened(name));
   }
   CHECK(original.handoffs().size() > 8);
-  // And back: with what the caller changed before it was saved.
+  // And back, including what the caller changed before it was saved.
   for (const double time : {0.0, 1.1, 0.3}) {
     original.seek(time);
     relay.seek(time);
@@ -226,7 +226,7 @@ TEST_CASE("what is loaded calls the callbacks of the stage that loads it, for wh
   again.load(stage.save());
   CHECK(beats == 0);
   again.advance_to(1.2);
-  CHECK(beats == 1);  // at 1.0; that of 0.3 was before
+  CHECK(beats == 1);  // at 1.0; that at 0.3 was before
 }
 
 TEST_CASE("bytes of another description, of a world, of nothing, or damaged ones are refused and change nothing") {
@@ -271,7 +271,7 @@ TEST_CASE("bytes that lie with a right checksum are refused, or make a stage tha
         header + static_cast<std::size_t>(random.unit() * static_cast<double>(bytes.size() - header - 9));
     if (kind == 0) bytes[place] ^= static_cast<std::byte>(1 + static_cast<int>(random.unit() * 254));
     if (kind == 1)
-      for (std::size_t i = 0; i < 8; ++i) bytes[place + i] = std::byte{0xff};  // no number, no node, far too many
+      for (std::size_t i = 0; i < 8; ++i) bytes[place + i] = std::byte{0xff};  // not a number, no node, far too many
     if (kind == 2) bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(place));
     seal(bytes);
     try {

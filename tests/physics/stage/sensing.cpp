@@ -46,7 +46,7 @@ TEST_CASE("what comes into a sensor and leaves it is told at the end of its step
   CHECK(heard[1].name == "left");
   CHECK(heard[1].time >= time_of_fall(1.65));
   CHECK(heard[1].time <= time_of_fall(1.65) + stage.step());
-  // What is taken away has not left.
+  // A removed body has not left.
   Stage again(gate());
   again.advance_to(time_of_fall(1.5));
   again.remove(1);
@@ -77,7 +77,7 @@ TEST_CASE("a rule waits for a drive to be at its limit, and for a body to be off
                         .body = BodyDescription{
                             .shape = {Sphere{0.1}}, .mass = 2.0, .drive = Drive{.hz = 4, .zeta = 1, .max_force = 15}}}};
   description.rules = {{.bodies = {"lift"}, .when = {{when::Error{0.5}}}, .to = Drive::free()}};
-  // It can bear 15 N of 19.62 N: it sinks with (19.62 - 15) / 2 = 2.31 m/s^2, and is 0.5 m off after sqrt(1 / 2.31) s.
+  // It can carry 15 N of 19.62 N: it sinks with (19.62 - 15) / 2 = 2.31 m/s^2, and is 0.5 m off after sqrt(1 / 2.31) s.
   Stage stage(description);
   stage.advance_to(1);
   REQUIRE(stage.handoffs().size() == 1);
@@ -138,7 +138,7 @@ TEST_CASE("a joint that comes while the stage runs holds, is read by its name, a
   CHECK_FALSE(stage.joint("rope"));
   stage.advance_to(1.2);
   CHECK(stage.world(late).motion.pose.position.y() < 1.9);
-  // The name of one that is gone is free.
+  // The name of a removed one is free.
   stage.add_joint({.name = "rope", .a = 0, .b = late, .kind = SpringJoint{1, 10, 0}});
   CHECK(stage.joint("rope"));
   stage.remove(late);

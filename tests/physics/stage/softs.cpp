@@ -8,7 +8,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// A rope on a hand that moves and opens, above a sheet that tears under a ball, in a wind that leaps.
+/// A rope on a hand that moves and opens, above a sheet that tears under a ball, in a wind that jumps.
 StageDescription softly_hung(SoftSolver solver) {
   StageDescription stage;
   stage.nodes.push_back({.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}});
@@ -80,7 +80,7 @@ TEST_CASE("soft bodies on a stage go back and on, saved too, to the same bits, w
     CHECK(same(loaded.soft("line"), late_line));
     CHECK(same(loaded.soft("sheet"), late_sheet));
     CHECK(loaded.events().size() == events.size());
-    // However the frames fall.
+    // Whatever the frames are.
     while (stepped.time() < 1.2 - 1e-9) stepped.advance(std::min(0.0371, 1.2 - stepped.time()));
     stepped.advance_to(1.2);
     CHECK(same(stepped.soft("sheet"), late_sheet));
@@ -114,7 +114,7 @@ TEST_CASE("each edge that tears is an event with its time, its place and its sof
     CHECK(x > 0.5);
     CHECK(x < 2.5);
   }
-  // The ball comes down on the sheet first.
+  // The ball falls on the sheet first.
   CHECK(told[0].time > std::sqrt(2 * (0.5 - 0.15 - 0.01) / 9.81));
   const Recording recording = record(stage, 1.3, 30);
   CHECK(recording.softs[1].torn_at.size() == sheet.torn.size());

@@ -108,7 +108,7 @@ TEST_CASE("in a plane, too, a stack of ten stands where it stood, wherever its s
       StageDescription description = stack_and_far_bodies(step);
       description.world.plane = WorldPlane::xy;
       Stage alone(description), split(description);
-      // There it takes a second until it has sunk to where it stands.
+      // There it takes a second until it has sunk to its rest.
       for (int frame = 60; frame < 68; ++frame) {
         split.advance_to(frame / 60.0 + beside);
         split.apply_impulse(2, {0, 0, 0}, {60, 900, 0});

@@ -109,7 +109,7 @@ TEST_CASE("events, contacts and hand-offs are told once, in order, at their own 
   stage.on_contact([&](const StageEvent& event) {
     CHECK(event.impulse > 0);
     CHECK(event.nodes.size() == 2);
-    // They met a little earlier: what a contact took is known at the end of the step.
+    // They met a little earlier: the impulse of a contact is known at the end of the step.
     CHECK(event.time <= stage.time());
     CHECK(event.time >= stage.time() - 2 * stage.step());
     tell(stage.time(), "contact");
@@ -243,7 +243,7 @@ TEST_CASE("a body let go falls asleep and its script takes it back") {
 }
 
 TEST_CASE("a jump of the script is not a blow: across a seam contacts use the rate") {
-  // A keyed box slides at 1 m/s and jumps back each second; a ball ahead of it may only ever be pushed at 1 m/s.
+  // A keyed box slides at 1 m/s and jumps back each second; a ball in front of it must only ever be pushed at 1 m/s.
   StageDescription description;
   description.world.gravity = {0, 0, 0};
   description.nodes = {{.name = "pusher", .body = BodyDescription{.shape = {Box{{0.1, 0.1, 0.1}}}, .mass = 1.0}},

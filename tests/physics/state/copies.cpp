@@ -25,7 +25,7 @@ TEST_CASE("a copy taken at any step goes on in the same bits as the original") {
   for (const Scenario& scenario : scenarios()) {
     CAPTURE(scenario.name);
     World original = scenario.make();
-    World relay = original;  // copied anew before every step
+    World relay = original;  // copied again before every step
     std::vector<World> branches;
     for (int n = 0; n < scenario.steps; ++n) {
       if (n % 40 == 20) branches.push_back(original);
@@ -91,12 +91,12 @@ TEST_CASE("contacts are told alike by a world, its copies and whom it was loaded
       scenario.step(world, n);
       if (n % 7 != 3) continue;
       CAPTURE(n);
-      const World copy = world;  // before anybody asked
+      const World copy = world;  // before anyone asked
       World loaded;
       loaded.load(world.save());
       std::vector<Contact> told(world.contacts().begin(), world.contacts().end());
       seen += told.size();
-      // By several at once: one of them puts them together.
+      // By several threads at once: one of them assembles them.
       std::vector<std::size_t> counts(3);
       std::vector<std::thread> askers;
       for (std::size_t& count : counts) askers.emplace_back([&copy, &count] { count = copy.contacts().size(); });
@@ -116,7 +116,7 @@ TEST_CASE("contacts are told alike by a world, its copies and whom it was loaded
       REQUIRE(std::ranges::equal(loaded.contacts(), told, same_contact));
       REQUIRE(std::ranges::equal(later.contacts(), told, same_contact));
       if (told.empty()) continue;
-      // And who leaves takes his own along.
+      // A removed body takes its own along.
       const BodyId leaves = told[told.size() / 2].b;
       loaded.remove(leaves);
       std::erase_if(told, [&](const Contact& contact) { return contact.a == leaves || contact.b == leaves; });

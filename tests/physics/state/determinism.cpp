@@ -95,7 +95,7 @@ TEST_CASE("bodies a million times as heavy, or beside others far away, go the sa
     return ends;
   };
   const std::vector<Vec3> usual = places(1, false);
-  // By powers of two no number of a mass is rounded otherwise.
+  // Scaling by powers of two rounds no number of a mass differently.
   CHECK(places(1048576, false) == usual);
   CHECK(places(1.0 / 1048576, false) == usual);
   CHECK(places(1, true) == usual);

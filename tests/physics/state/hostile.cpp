@@ -206,7 +206,7 @@ TEST_CASE("a capsule larger than any world lies in a crowd, and thirty steps end
 }
 
 TEST_CASE("worlds of any size and steps of any length stay finite") {
-  // Every size with every length, and each of them with either restitution, but not all three with all.
+  // Every size with every length, and each of them with either restitution, but not all combinations of three.
   int turn = 0;
   for (const double size : {1e-6, 1e-3, 1.0, 1e3, 1e6})
     for (const double dt : {1e-12, 1e-4, 1.0 / 60, 0.5, 10.0})
@@ -228,7 +228,7 @@ TEST_CASE("worlds of any size and steps of any length stay finite") {
           bodies.push_back(world.add(body));
         }
         for (int i = 0; i < 20; ++i) world.step(dt);
-        // In steps as long as these a fall of a thousand seconds is what they come from.
+        // Steps as long as these come from a fall of a thousand seconds.
         double fastest = 0;
         for (const BodyId body : bodies) fastest = std::max(fastest, world.twist(body).linear.norm());
         CHECK(fastest < (20 + 1e4 * dt) * size);

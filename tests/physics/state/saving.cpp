@@ -10,13 +10,13 @@ namespace {
 
 World loaded(std::span<const std::byte> saved) {
   World world;
-  world.add({.motion = {.pose = {.position = Vec3(9, 9, 9)}}});  // of which nothing must be left
+  world.add({.motion = {.pose = {.position = Vec3(9, 9, 9)}}});  // nothing of it must be left
   world.step(0.01);
   world.load(saved);
   return world;
 }
 
-/// Some of all that a world can hold.
+/// Some of everything that a world can hold.
 World varied() {
   const std::vector<Scenario> all = scenarios();
   World world = all[0].make();
@@ -66,7 +66,7 @@ TEST_CASE("handles, shapes and free places come back as they were saved") {
   }
   CHECK(!again.collides(before[4], before[5]));
   CHECK(again.time() == world.time());
-  // What is added and taken away next gets the same handles and numbers.
+  // What is added and removed next gets the same handles and numbers.
   CHECK(again.add({}) == world.add({}));
   CHECK(again.add_force(Drag{}) == world.add_force(Drag{}));
   world.remove_force(0);
@@ -94,7 +94,7 @@ TEST_CASE("a hull that was loaded is the hull that was saved, to the bit, also w
     try {
       made.emplace(points);
     } catch (const std::invalid_argument&) {
-      continue;  // flat, or hangs on rounding
+      continue;  // flat, or depends on rounding
     }
     const ConvexHull& hull = *made;
     World world;

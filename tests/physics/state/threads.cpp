@@ -11,7 +11,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// Does all parts backward, and says that there are many threads.
+/// Does all parts in reverse order, and claims that there are many threads.
 class Backward : public Executor {
  public:
   void for_each(std::size_t count, const Work& work) override {
@@ -41,7 +41,7 @@ TEST_CASE("any number of threads, and parts done in any order, end every step in
     for (int n = 0; n < scenario.steps; ++n) {
       CAPTURE(n);
       scenario.step(alone, n);
-      // Eight threads on few processors take long: what they see is begun with, two of them see all.
+      // Eight threads on few processors take long: they see only the beginning, two of them see everything.
       if (n == 60) others.erase(others.begin() + 2, others.begin() + 4);
       for (World& other : others) {
         scenario.step(other, n);

@@ -42,7 +42,7 @@ TEST_CASE("contacts among many at one place share colors: few more of them than 
     for (std::uint32_t a = 0; a < 400; ++a)
       for (std::uint32_t b = a + 1; b < std::min(400u, a + 100); ++b, ++contacts)
         static_cast<void>(coloring.color(a, true, b, true));
-    // A body has up to 198 contacts, and colors taken in order at most twice as many but one.
+    // A body has up to 198 contacts, and colors taken in order are at most twice as many minus one.
     CHECK(coloring.end() >= 198);
     CHECK(coloring.end() - blocks::Coloring::half <= 2 * 198 - 1);
     CHECK(contacts > 30'000);
@@ -85,7 +85,7 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
   test::Random random(8);
   const auto fill = [&random](auto& list, std::size_t count) {
     list.resize(count);
-    // Of the magnitudes that occur, both signs.
+    // Of the magnitudes that occur, with both signs.
     for (auto& item : list) {
       double numbers[sizeof item / sizeof(double)];
       for (double& number : numbers) number = random.between(-1, 1);
@@ -206,7 +206,7 @@ TEST_CASE("a cloud of bodies that meets in its middle keeps its momentum, and ga
       world.step(1.0 / 120);
       most = std::max(most, world.contacts().size());
       CAPTURE(step);
-      // Taking overlaps apart leaves traces of speed.
+      // Removing overlap leaves traces of speed.
       CHECK(world.kinetic_energy() <= energy + 1e-8 * start);
       energy = world.kinetic_energy();
     }

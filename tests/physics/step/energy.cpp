@@ -4,7 +4,7 @@ using namespace tweenfall;
 
 namespace {
 
-/// Kinetic energy and that of height, J.
+/// Kinetic energy plus that of height, J.
 double energy_of(const World& world) {
   double sum = world.kinetic_energy();
   for (const BodyId body : world.bodies())
@@ -128,7 +128,7 @@ TEST_CASE("what meets while it falls freely gains no energy by it, in no step") 
 }
 
 TEST_CASE("momentum is kept when the last pass is the first to reach a body") {
-  // A row of balls that a blow runs along: each passes it on late.
+  // A row of balls along which a blow runs: each passes it on late.
   for (const int count : {3, 6, 12, 30})
     for (const double restitution : {0.0, 0.5, 1.0})
       for (const double gap : {0.0, 1e-4, 1e-3, 0.01}) {

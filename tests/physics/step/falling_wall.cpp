@@ -44,7 +44,7 @@ TEST_CASE("in a heap that rebounds, no body moves farther in a step than its spe
       }
     }
     CAPTURE(seed);
-    // What is left: speeds that a body has within the step alone, and overlap that is taken apart.
+    // What remains: speeds that a body has only within the step, and overlap that is being removed.
     CHECK(most < 0.05);
   }
 }

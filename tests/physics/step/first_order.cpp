@@ -12,7 +12,7 @@ using namespace tweenfall;
 
 namespace {
 
-/// A pendulum that is pushed: q' = p, p' = -sin q + 0.3 cos 2 t.
+/// A pushed pendulum: q' = p, p' = -sin q + 0.3 cos 2 t.
 void pushed_pendulum(double time, std::span<const double> state, std::span<double> rates) {
   rates[0] = state[1];
   rates[1] = -std::sin(state[0]) + 0.3 * std::cos(2 * time);
@@ -54,7 +54,7 @@ TEST_CASE("Robertson's reaction, which is stiff, comes out as published by backw
     CHECK(std::abs(path.states.back()[1] - 9.185534765e-6) < 1e-4 * off);
     CHECK(std::abs(path.states.back()[2] - 0.2841637457) < off);
   }
-  // What is explicit cannot: this is why there are others.
+  // Explicit methods cannot do this: it is why there are others.
   CHECK_FALSE(std::isfinite(first_order_path(reaction, {1, 0, 0}, Integrator::rk4, 0.005, 8000).states.back()[0]));
 }
 

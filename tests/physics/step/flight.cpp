@@ -72,7 +72,7 @@ TEST_CASE("a tumbling box keeps its energy and its angular momentum, and flips")
 }
 
 TEST_CASE("a needle that tumbles keeps its spin, and points where its closed form says, however thin it is") {
-  // Two moments alike and one unlike: it goes around its angular momentum by L / I, and keeps its spin about itself.
+  // Two moments equal and one different: it goes around its angular momentum by L / I, and keeps its spin about itself.
   WorldSettings settings;
   settings.gravity = Vec3::Zero();
   settings.sleep_after = std::numeric_limits<double>::infinity();
@@ -91,7 +91,7 @@ TEST_CASE("a needle that tumbles keeps its spin, and points where its closed for
     for (int i = 0; i < 480; ++i) world.step(1.0 / 240);
     const Motion motion = world.motion(body);
     const Vec3 own = motion.pose.rotation.conjugate() * motion.twist.angular;
-    // What is rounded of the great momentum is much for the small moment.
+    // The rounding of the large momentum is large for the small moment.
     const double rounding = 1e-6 + 1e-14 * inertia(0, 0) / inertia(1, 1);
     CHECK(own.y() == doctest::Approx(rate).epsilon(rounding));
     CHECK(std::hypot(own.x(), own.z()) == doctest::Approx(std::sqrt(2.0) * rate).epsilon(1e-6));
@@ -170,7 +170,7 @@ TEST_CASE("a capsule that tumbles freely lies as the closed form of a top says, 
   const Vec3 moments(0.0929, 0.041, 0.0929), spin(3, -5, 2);
   const Quat start(Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()));
   constexpr double seconds = 2;
-  // It spins about its axis by itself, and that goes around the momentum.
+  // It spins about its axis, which goes around the momentum.
   const Vec3 momentum = start * Vec3(moments.cwiseProduct(start.conjugate() * spin));
   const double about_axis = (start.conjugate() * spin).y() * (1 - moments.y() / moments.x());
   const Vec3 around = momentum / moments.x();

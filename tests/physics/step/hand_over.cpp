@@ -56,7 +56,7 @@ TEST_CASE("a keyed box pushes a row of five at its own speed and is not pushed")
     CHECK(next - x > 1 - 0.005);
     x = next;
   }
-  // What it gave them is their momentum and what the floor's friction took.
+  // What it gave them is their momentum plus what the floor's friction took.
   double momentum = 0;
   for (const BodyId box : row.boxes) momentum += row.world.twist(box).linear.x();
   CHECK(near(-row.world.reaction(row.pusher).x(), momentum + row.world.reaction(row.ground).x(), 1e-9));
@@ -174,7 +174,7 @@ TEST_CASE("a drive of frequency 0 gives the bits of a free body, through flight 
     box.shape = {Box{Vec3(0.3, 0.2, 0.4)}};
     box.shape.offset.position = Vec3(0.1, 0, 0.05);
     box.restitution = 0.4;
-    // The number of damping says nothing without a frequency.
+    // The damping ratio means nothing without a frequency.
     box.drive = i == 0 ? Drive::free() : Drive{.hz = 0, .zeta = 0.7};
     box.motion = at(Vec3(0, 2, 0), Vec3(1, 0.5, 0));
     box.motion.twist.angular = Vec3(3, -2, 1);
@@ -203,8 +203,8 @@ TEST_CASE("a very stiff drive is off by zeta a h / w within 2 %") {
     ball.drive = {.hz = hz};
     const BodyId body = world.add(ball);
     const double h = 1.0 / 60, a = 11.8;
-    // It comes to rest at the origin, so that the place it is read at has more digits than the error. It leads, for
-    // the step's end is reached with the speed that is wanted there.
+    // It comes to rest at the origin, so that its position has more digits than the error. It leads because
+    // the end of the step is reached with the velocity that is wanted there.
     double error = 0;
     for (int i = 1; i <= 120; ++i) {
       const double t = (i - 120) * h;

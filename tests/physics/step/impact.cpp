@@ -187,7 +187,7 @@ TEST_CASE("an island that rebounds leaves nothing to one solved after it that ha
 
 namespace {
 
-/// What a row of balls of a kilogram at restitution 1 has come to after two seconds.
+/// The state of a row of balls of a kilogram at restitution 1 after two seconds.
 std::vector<double> row_after_blow(double gap, double rate, int coming, int resting) {
   World world({.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()});
   std::vector<BodyId> balls;
@@ -284,7 +284,7 @@ TEST_CASE("a column of twenty boxes or balls that falls piece by piece overlaps 
 }
 
 TEST_CASE("balls that rain into a box overlap by less than a tenth of their radius") {
-  // As in a scene of 5,000 of them, where other engines were measured when all had come to rest: 24 mm (Jolt), 33
+  // As in a scene of 5,000 of them, in which other engines were measured when all had come to rest: 24 mm (Jolt), 33
   // (Box3D), 43 (Bullet); while they fell Bullet's overlapped by 111 mm.
   World world({.sleep_after = std::numeric_limits<double>::infinity()});
   const auto wall = [&](const Vec3& half, const Vec3& at) {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// By how many powers of two an error falls when the step is halved.
+/// By how many powers of two an error decreases when the step is halved.
 double order_of(double coarse, double fine) {
   return std::log2(coarse / fine);
 }
@@ -33,7 +33,7 @@ WorldSettings without_gravity(Integrator integrator) {
   return settings;
 }
 
-/// A body of 2 kg on a spring of 32 N/m about the origin, let go at 1 m: its place is cos 4 t.
+/// A body of 2 kg on a spring of 32 N/m about the origin, released at 1 m: its position is cos 4 t.
 double error_on_a_spring(Integrator integrator, int steps) {
   World world(without_gravity(integrator));
   BodySettings settings;
@@ -45,7 +45,7 @@ double error_on_a_spring(Integrator integrator, int steps) {
   return std::abs(world.motion(body).pose.position.x() - std::cos(4.0));
 }
 
-/// Around a sun of 4 pi^2 on an ellipse of eccentricity .3, for a year: it is where it was.
+/// Around a sun of 4 pi^2 on an ellipse of eccentricity .3, for a year: it is back where it was.
 double error_after_a_year(Integrator integrator, int steps) {
   World world(without_gravity(integrator));
   const double sun = 4 * test::pi * test::pi;
@@ -145,7 +145,7 @@ TEST_CASE("each integrator comes nearer to what tumbling, springs, drag, damping
     const double coarse = apart(tied(method.integrator, steps), limit);
     const double fine = apart(tied(method.integrator, 2 * steps), limit);
     CAPTURE(coarse);
-    // The usual one takes drag and damping implicitly, which never grows and is of first order.
+    // The default takes drag and damping implicitly, which never grows and is of first order.
     const double order = method.integrator == Integrator::exact_quadratic ? 1 : method.order;
     CHECK(order_of(coarse, fine) > order - 0.2);
   }
@@ -196,7 +196,7 @@ TEST_CASE("by every integrator a spring gives its two ends opposite momenta, wha
 
 namespace {
 
-/// A body of 2 kg on a spring of 32 N/m about the origin: place and speed along x after so many steps, from 1 m.
+/// A body of 2 kg on a spring of 32 N/m about the origin: position and velocity along x after so many steps, from 1 m.
 std::array<double, 2> swung(Integrator integrator, double dt, int steps) {
   World world(without_gravity(integrator));
   BodySettings settings;
@@ -214,7 +214,7 @@ double swing_energy(const std::array<double, 2>& state) {
 }
 
 /// A top of equal moments 2 kg m^2 and 1 about its own y, without torque: it turns about its momentum at L / 2, and
-/// about its own y by what is left.
+/// about its own y by the rest.
 double top_error(Integrator integrator, int steps) {
   World world(without_gravity(integrator));
   BodySettings settings;
@@ -239,7 +239,7 @@ TEST_CASE("on a spring explicit Euler gains (1 + h^2 w^2) a step, backward Euler
     CHECK(near(swing_energy(swung(Integrator::explicit_euler, dt, steps)) / start / grown, 1, 1e-12));
     CHECK(near(swing_energy(swung(Integrator::backward_euler, dt, steps)) / start * grown, 1, 1e-12));
     CHECK(near(swing_energy(swung(Integrator::implicit_trapezoid, dt, steps)) / start, 1, 1e-12));
-    // What they keep instead is told in closed form: Hairer, Lubich and Wanner, Geometric Numerical Integration.
+    // What they keep instead is given in closed form: Hairer, Lubich and Wanner, Geometric Numerical Integration.
     const std::array<double, 2> verlet = swung(Integrator::verlet, dt, steps);
     CHECK(near(swing_energy(verlet) - 16 * verlet[0] * verlet[0] * 4 * dt * dt, start * (1 - 4 * dt * dt), 1e-11));
     const std::array<double, 2> euler = swung(Integrator::semi_implicit_euler, dt, steps);
@@ -312,7 +312,7 @@ TEST_CASE("a chain of balls on stiff springs hangs still by backward Euler, each
 
 TEST_CASE("a top without torque turns as its closed form, nearer by each integrator's order") {
   for (const Method& method : methods) {
-    // These two turn bodies in a way of their own.
+    // These two turn bodies by methods of their own.
     if (method.integrator == Integrator::exact_quadratic || method.integrator == Integrator::semi_implicit_euler)
       continue;
     CAPTURE(method.name);

@@ -64,7 +64,7 @@ TEST_CASE("an island in which something bounces leaves nothing to one in which n
                                   .motion = {.pose = {.position = {0.1 * (i % 3), 0.5 + 1.0 * i, 0.05 * (i % 4)}}}}));
     }
   };
-  // In which part of a step they meet the floor depends on how fast they fall.
+  // In which part of a step they hit the floor depends on how fast they fall.
   for (double speed = 1; speed < 3; speed += 0.04) {
     CAPTURE(speed);
     Two alone(false, speed), both(true, speed);
@@ -84,7 +84,7 @@ TEST_CASE("an island in which something bounces leaves nothing to one in which n
 }
 
 TEST_CASE("what a small island does depends on none of those that are solved beside it") {
-  // Few bodies each: what rests, slides, rolls, spins, bounces, is pushed.
+  // Few bodies each: resting, sliding, rolling, spinning, bouncing, pushed.
   struct Field {
     World world;
     std::vector<BodyId> bodies;

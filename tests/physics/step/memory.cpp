@@ -9,7 +9,7 @@ namespace {
 
 constexpr double awake = std::numeric_limits<double>::infinity();
 
-/// What a world holds after some steps: its state, which is what a copy takes along, and the room that it works in.
+/// The memory of a world after some steps: its state, which a copy takes along, and its working memory.
 struct Held {
   std::size_t state, room, bodies, pairs;
 };

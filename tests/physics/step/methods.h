@@ -6,7 +6,7 @@
 
 namespace tweenfall::test {
 
-/// An integrator, and the power of the step with which its error falls.
+/// An integrator, and the power of the step with which its error decreases.
 struct Method {
   const char* name;
   Integrator integrator;

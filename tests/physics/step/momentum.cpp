@@ -11,7 +11,7 @@ constexpr double without_end = std::numeric_limits<double>::infinity();
 /// Of all bodies about the origin.
 struct Momenta {
   Vec3 linear{0, 0, 0}, angular{0, 0, 0};
-  double size = 0;  ///< of the parts of the angular one
+  double size = 0;  ///< size of the terms of the angular one
 };
 
 Momenta momenta_of(const World& world) {

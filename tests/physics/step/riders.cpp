@@ -46,7 +46,7 @@ Way table_at(double spin) {
   });
 }
 
-/// A world with one body that goes a way, and what rides on it.
+/// A world with one body that follows a path, and its riders.
 struct Ride {
   World world{{.sleep_after = std::numeric_limits<double>::infinity()}};
   Way way;
@@ -90,7 +90,7 @@ TEST_CASE("an elevator's floor bears what it lifts and brakes, from the first st
   for (const double rate : {60.0, 240.0})
     for (const Vec2& up_and_down : {Vec2(2, 0.5), Vec2(1.6, 0.5), Vec2(2, 0.9)})
       for (const Shape& shape : {cube(0.25), Shape{Sphere{0.25}}, Shape{Capsule{0.1, 0.15}}})
-        // Islands of their own are alike at any rate: so many steps are taken of one alone.
+        // Separate islands behave alike anyway: so many steps are made with only one.
         for (const int riders : {rate == 60 ? 9 : 1}) {
           CAPTURE(rate);
           const double period = up_and_down.x(), height = up_and_down.y();

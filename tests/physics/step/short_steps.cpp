@@ -74,7 +74,7 @@ TEST_CASE("short steps alone, one length after another, leave a stack where it s
         for (int i = 0; i < 8; ++i) tower.world.step(1.0 / 240);
         for (int i = 0; i < run; ++i) tower.world.step(length);
       }
-      // Milliseconds in steps of 0.1 ms press the contacts a little otherwise.
+      // Milliseconds in steps of 0.1 ms press the contacts slightly differently.
       CHECK(tower.strayed() < (run * length > 1e-3 ? 2e-4 : 1e-4));
       CHECK(tower.fastest() < 0.01);
     }

@@ -100,7 +100,7 @@ TEST_CASE("boxes, capsules and balls that meet in a plane stay in it to a billio
     World world({.gravity = Vec3::Zero(), .sleep_after = forever});
     std::vector<BodyId> bodies;
     for (int i = 0; i < 2; ++i) {
-      // One after the other, for compilers differ in which argument they look at first.
+      // In separate statements, since compilers differ in which argument they evaluate first.
       const double height = 0.2 * random.unit(), turn = 3 * random.unit(), toward = random.unit(), up = random.unit(),
                    spin = 5 * random.unit();
       BodySettings body = solid_at(solids[(i == 0 ? run : run / 4) % 4], Vec3(1.2 * i, height, 0), 1 + i);
@@ -180,7 +180,7 @@ TEST_CASE("splinters that a blow spins up by thousands of radians per step do no
 }
 
 TEST_CASE("a plate that is pulled over the floor under 25 balls, and they, speed up as friction lets them, to 1e-6") {
-  // The pull less the floor's friction moves the plate and two sevenths of each ball's mass, which rolls back on it.
+  // The pull minus the floor's friction moves the plate and two sevenths of each ball's mass, which rolls back on it.
   for (const double force : {150.0, 200.0}) {
     World world({.sleep_after = forever});
     world.add({.shape = {Plane{}}, .friction = 0.4, .fixed = true});

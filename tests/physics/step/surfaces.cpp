@@ -24,7 +24,7 @@ BodySettings crate(const Vec3& place, double turned = 0) {
   return settings;
 }
 
-/// What a belt does to a box that it takes along, or stops, by a change of its speed.
+/// What a belt does to a box that it carries along, or stops, by a change of its speed.
 struct BeltRide {
   double slipped_for = 0, went = 0, relative_speed = 0;
 };
@@ -43,7 +43,7 @@ BeltRide ride(World& world, BodyId on, BodyId box, const Vec3& along, double fro
       result.slipped_for = i * h;
       result.went = world.motion(box).pose.position.dot(along) - start;
     }
-    // Where it began to ride, within a step, is not told.
+    // The instant within a step at which it began to ride is not known.
     if (riding > 0 && ++riding > 3) result.relative_speed = std::max(result.relative_speed, std::abs(speed - to));
   }
   return result;
@@ -77,7 +77,7 @@ TEST_CASE("a belt takes a box along: it slips for 0.3823 s and 0.2867 m, rides, 
             CAPTURE(speed);
             const BeltRide taken = ride(world, on, row.back(), along, before, speed, h);
             CHECK(std::abs(taken.slipped_for - slip_time) <= h + 1e-9);
-            // From rest to the belt's speed or back it goes as far as it slips.
+            // From rest to the belt's speed or back, it moves as far as it slips.
             CHECK(std::abs(std::abs(taken.went) - slip_length) <= 1.5 * h);
             CHECK(taken.relative_speed <= 1e-4);
             CHECK(taken.went * (speed + before) > 0);
@@ -138,7 +138,7 @@ TEST_CASE("a ball that bounces on a belt comes to its speed, keeps its bounce, a
     rises = speed > 0;
   }
   CHECK(highest == doctest::Approx(0.1 + 0.64).epsilon(0.01));
-  // Of a ball's speed two sevenths are its own, the rest is spin, until all of its surface goes with the belt.
+  // Two sevenths of a ball's speed are its own, the rest is spin, until its whole surface moves with the belt.
   const Twist twist = world.twist(body);
   CHECK(twist.linear.x() + 0.1 * twist.angular.z() == doctest::Approx(3).epsilon(1e-3));
   CHECK(twist.linear.x() == doctest::Approx(3 * 2.0 / 7).epsilon(0.01));
@@ -202,7 +202,7 @@ TEST_CASE("of two bodies' rules to combine the stronger holds, in the stated ord
       CHECK(contacts::combined_friction(a, rules[i], b, rules[k]) == doctest::Approx(frictions[std::max(i, k)]));
       CHECK(contacts::combined_restitution(a, rules[i], b, rules[k]) == doctest::Approx(restitutions[std::max(i, k)]));
     }
-  // As a box feels it that slides, and a ball that bounces.
+  // As a sliding box feels it, and a bouncing ball.
   for (std::size_t i = 0; i < rules.size(); ++i) {
     CAPTURE(i);
     World world;

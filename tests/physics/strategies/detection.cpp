@@ -9,7 +9,7 @@ using test::near;
 
 namespace {
 
-/// How far a bullet of so many m/s gets through a wall of 1 cm at x = 5, in steps of 1/60 s.
+/// How far a bullet of this speed, m/s, gets through a wall of 1 cm at x = 5, in steps of 1/60 s.
 double reached_by(Detection collision, double speed) {
   World world(test::weightless(test::with(ContactSolver::iterative, Parting::soft, collision)));
   BodySettings wall = test::solid_at(Box{Vec3(0.005, 2, 2)}, Vec3(5, 0, 0));
@@ -141,7 +141,7 @@ TEST_CASE("a keyed bat meets a ball at its own speed within the step, and ends o
   world.set_target(keyed, target);
   world.step(dt);
   CHECK(world.motion(keyed).pose.position == target.pose.position);
-  // It is met after 0.25 m, at 0.05 s, and leaves at (1 + e) of the bat's speed.
+  // It is hit after 0.25 m, at 0.05 s, and leaves at (1 + e) of the bat's speed.
   CHECK(near(world.twist(struck).linear.x(), 1.5 * speed, 1e-9));
   CHECK(near(world.motion(struck).pose.position.x(), 0.45 + 1.5 * speed * 0.05, 1e-5));
 }

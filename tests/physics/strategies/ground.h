@@ -1,6 +1,6 @@
 #pragma once
 
-/// Worlds that go by other strategies than the usual ones.
+/// Worlds that use other strategies than the defaults.
 
 #include <tweenfall/physics/strategies.h>
 
@@ -41,7 +41,7 @@ inline BodySettings solid_at(const Solid& solid, const Vec3& position, double ma
   return body;
 }
 
-/// So many boxes of a kilogram and a meter, one on the other.
+/// This many boxes of a kilogram and a meter, one on top of the other.
 inline std::vector<BodyId> add_stack(World& world, int count) {
   std::vector<BodyId> boxes;
   for (int i = 0; i < count; ++i) boxes.push_back(world.add(solid_at(Box{Vec3(0.5, 0.5, 0.5)}, Vec3(0, 0.5 + i, 0))));

@@ -24,7 +24,7 @@ std::vector<Bounds> random_boxes(test::Random& random, std::size_t count, double
   return boxes;
 }
 
-/// All pairs as they are defined, without any of our searches.
+/// All pairs by their definition, without any of our searches.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> counted_out(const std::vector<Bounds>& boxes) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (std::uint32_t a = 0; a < boxes.size(); ++a)
@@ -108,7 +108,7 @@ TEST_CASE("a world goes by the same bits by whichever search it finds its pairs"
       world.add(body);
     }
     for (int step = 0; step < 120; ++step) world.step(1.0 / 60);
-    // The setting itself is part of what a world is: what came of the bodies is compared.
+    // The setting itself is part of a world's state, so the motion of the bodies is compared.
     for (const BodyId body : world.bodies())
       for (const double part : {world.motion(body).pose.position.x(), world.twist(body).linear.y(),
                                 world.motion(body).pose.rotation.w(), world.twist(body).angular.z()})

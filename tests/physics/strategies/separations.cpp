@@ -9,7 +9,7 @@ using test::near;
 
 namespace {
 
-/// Two balls of 1 and 3 kg that lie 0.1 m in each other, side by side.
+/// Two balls of 1 and 3 kg that overlap by 0.1 m, side by side.
 struct Lapping {
   World world;
   BodyId light, heavy;
@@ -36,7 +36,7 @@ TEST_CASE(
   CHECK(near(mass.moved_heavy(), 0.025, 1e-9));
   // The center of mass stays.
   CHECK(near(mass.moved_light(), 3 * mass.moved_heavy(), 1e-12));
-  // Of balls no arm turns anything.
+  // For balls no arm turns anything.
   CHECK(near(impulse.moved_light(), 0.075, 1e-9));
   CHECK(near(impulse.moved_heavy(), 0.025, 1e-9));
   CHECK(closest.moved_light() == 0);
@@ -61,7 +61,7 @@ TEST_CASE("what cannot move leaves all of the overlap to the other") {
 }
 
 TEST_CASE("a positional impulse at a rod's end moves and turns it as an impulse would, and others only move it") {
-  // depth = impulse (1/m + r^2/I): of a rod 2 m long and 0.1 m square, struck 0.9 m from its middle.
+  // depth = impulse (1/m + r^2/I): for a rod 2 m long and 0.1 m square, struck 0.9 m from its center.
   const double depth = 1e-5, mass = 2, inertia = mass / 12 * (2.0 * 2 + 0.1 * 0.1), arm = 0.9;
   const double impulse = depth / (1 / mass + arm * arm / inertia);
   for (const Parting separation : {Parting::positional_impulse, Parting::by_mass}) {

@@ -16,7 +16,7 @@ namespace {
 constexpr std::array all_solvers{ContactSolver::iterative, ContactSolver::sequential, ContactSolver::shock,
                                  ContactSolver::lcp};
 
-/// Sum of the impulses by which a body is borne from below in the last step, N s.
+/// Sum of the impulses that carried a body from below in the last step, N s.
 double borne(const World& world, BodyId below, BodyId above) {
   double sum = 0;
   for (const Contact& contact : world.contacts())
@@ -29,7 +29,7 @@ struct Fate {
   double top = 0, deepest = 0, aside = 0, residual = 0;
 };
 
-/// Of boxes, one on the other.
+/// Of boxes, one on top of the other.
 Fate stack_by(ContactSolver solver, int count, int steps) {
   World world(test::with(solver, Parting::positional_impulse));
   test::add_floor(world);
@@ -212,7 +212,7 @@ TEST_CASE(
     }
 }
 
-// At steps as long as these what presses makes what is light so fast that rounding alone is more than 1e-10 m/s.
+// In steps as long as these, pressing makes light bodies so fast that rounding alone is more than 1e-10 m/s.
 TEST_CASE("a hundred boxes of which every other is a hundred thousand times as heavy stand at sixty steps a second") {
   for (const double aside : {0.0, 0.003}) {
     CAPTURE(aside);
@@ -245,7 +245,7 @@ TEST_CASE("Lemke's pivots find what trying every choice of pressing rows finds, 
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < n; ++k)
         for (std::size_t r = 0; r < rank; ++r) matrix[i * n + k] += factors[i * rank + r] * factors[k * rank + r];
-    // Such that -wish leaves nothing that closes: then there is a solution.
+    // Chosen so that -wish leaves nothing that closes: then there is a solution.
     std::vector<double> wish(n);
     for (double& each : wish) each = random.between(-1, 0);
     for (std::size_t i = 0; i < n; ++i) {
@@ -262,7 +262,7 @@ TEST_CASE("Lemke's pivots find what trying every choice of pressing rows finds, 
     ++solved;
   }
   CHECK(solved == 400);
-  // What nothing can hold apart.
+  // A problem that nothing can hold apart.
   std::vector<double> z(1);
   CHECK_FALSE(strategies::solve_by_lemke(std::array{0.0}, std::array{-1.0}, z));
 }

@@ -26,7 +26,7 @@ struct Car {
   [[nodiscard]] Motion motion() const { return world.motion(chassis); }
 };
 
-/// 1000 kg on four wheels, low, at rest on ground that is tilted against its way.
+/// 1000 kg on four wheels, low, at rest on ground that slopes against its heading.
 Car car_on(double tilt, double grip = 0.8) {
   const Vec3 pull(-g * std::sin(tilt), -g * std::cos(tilt), 0);
   World world({.gravity = pull, .sleep_after = std::numeric_limits<double>::infinity()});
@@ -84,8 +84,8 @@ TEST_CASE("locked wheels stop a car in v^2 / (2 mu g), rolling ones hardly at al
   CHECK(near(rolling.vehicle.reading(0).spin, rolling.motion().twist.linear.x() / 0.3, 1e-3));
 }
 
-// A push at the ground tilts what stands high above it, and so moves less than its mass: taken for all of that, what
-// ends the slip of a step is too much, and the car went on to and fro, by 4 mm/s.
+// A push at the ground tilts a tall body, and so moves less than its whole mass: an impulse computed for the whole mass
+// to end the slip of a step is too large, and the car moved back and forth, by 4 mm/s.
 TEST_CASE("a short and high car that has stopped stays where it is") {
   World world;
   world.add({.shape = {Plane{}}, .friction = 1, .fixed = true});
@@ -132,7 +132,7 @@ TEST_CASE("a car that goes sideways is stopped by mu g, and a bend is held up to
   set_speed(sideways, Vec3(0, 0, 5));
   sideways.run(0.4);
   CHECK(near(sideways.motion().twist.linear.z(), 5 - 0.8 * g * 0.4, 3e-2));
-  // Steered by a little at 10 m/s it goes in a circle of wheelbase / tan(steer).
+  // Steered slightly at 10 m/s it goes in a circle of radius wheelbase / tan(steer).
   Car car = car_on(0);
   set_speed(car, Vec3(10, 0, 0));
   for (const std::size_t wheel : {0u, 1u}) car.vehicle.control(wheel, {.steer = 0.05});
@@ -143,7 +143,7 @@ TEST_CASE("a car that goes sideways is stopped by mu g, and a bend is held up to
   CHECK(rate > 0.5 * speed * std::tan(0.05) / 2.6);
   CHECK(rate < 1.1 * speed * std::tan(0.05) / 2.6);
   CHECK(rate < sharpest);
-  // Steered hard at 25 m/s it cannot turn faster than its grip lets it.
+  // Steered hard at 25 m/s it cannot turn faster than its grip allows.
   Car hard = car_on(0);
   set_speed(hard, Vec3(25, 0, 0));
   for (const std::size_t wheel : {0u, 1u}) hard.vehicle.control(wheel, {.steer = 0.4});
