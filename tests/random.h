@@ -22,7 +22,7 @@ class Random {
   double between(double low, double high) { return low + (high - low) * unit(); }
   Vec3 vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
   Quat rotation() {
-    // Braces, for the arguments of a call in parentheses are taken in an order of the compiler's choice.
+    // Braces, since the arguments of a call in parentheses are evaluated in an order of the compiler's choice.
     Quat q{between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1)};
     if (q.norm() < 0.1) return rotation();
     q.normalize();

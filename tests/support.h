@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-// Compiled once, in support.cpp: with every test that reads some it took a tenth of what tests take to compile.
+// Compiled once, in support.cpp: compiled with every test that uses it, it took a tenth of the tests' compile time.
 extern template class nlohmann::basic_json<>;
 
 namespace tweenfall::test {
@@ -31,16 +31,16 @@ std::filesystem::path vectors_folder();
 std::filesystem::path models_folder();
 /// Scenes of rigid bodies: TWEENFALL_SCENES, or ../shared/scenes.
 std::filesystem::path scenes_folder();
-/// The few cases of each family that travel with the project.
+/// The few cases of each family that are part of the project.
 std::filesystem::path data_folder();
 
 std::string text_of(const std::filesystem::path& file);
 nlohmann::json read_json(const std::filesystem::path& file);
-/// How often `what` is in `text`.
+/// How often `what` occurs in `text`.
 std::size_t count(const std::string& text, const std::string& what);
 
 /// All files of a vector family: "NAME.json" and "NAME_*.json" in tests/data and in the vectors folder.
-/// Says loudly when the vectors folder is absent.
+/// Reports loudly when the vectors folder is absent.
 std::vector<nlohmann::json> vector_family(const std::string& name);
 
 /// Three numbers.

@@ -246,7 +246,7 @@ TEST_CASE("the first play's morph weights and color fade from what the node show
   CHECK(half.weights[0].rate == 0.25);
   CHECK(half.weights[1].value == 0.5);
   CHECK(half.weights[1].rate == -0.5);
-  CHECK(half.weights[2].value == 0.125);  // of a target that the node says nothing of: from 0
+  CHECK(half.weights[2].value == 0.125);  // for a target that the node does not give: from 0
   CHECK(animation.look(0, 0).color->value == *face.color);
   CHECK(animation.look(0, 0).weights[1].value == 1);
   CHECK(animation.look(0, 3).color->value == Color{Vec4(0, 1, 0, 1)});

@@ -9,7 +9,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-// A figure that is symmetrical about x = 0 (or nearly, by `uneven`), its joints' axes lying each as they like.
+// A figure that is symmetrical about x = 0 (or nearly, by `uneven`), with arbitrary axes for its joints.
 Hierarchy mirrored_figure(bool random_axes, double uneven = 0) {
   Random random(3);
   struct Place {
@@ -77,7 +77,7 @@ TEST_CASE("the mirrored pose is the mirror image in the figure's space, rates to
       CHECK(near(image.pose.position, across(original.pose.position), 1e-13));
       CHECK(near(image.twist.linear, across(original.twist.linear), 1e-12));
       CHECK(near(image.twist.angular, turned_across(original.twist.angular), 1e-12));
-      // What the joint carries: a point that is at rest at each other's image stays so.
+      // What the joint carries: a point at rest stays at rest at its image.
       const Vec3 point(0.3, -0.2, 0.5);
       const Vec3 own = resting[i].motion.pose.rotation.conjugate() * point,
                  theirs = resting[mirror.partner(i)].motion.pose.rotation.conjugate() * across(point);

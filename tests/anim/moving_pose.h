@@ -1,6 +1,6 @@
 #pragma once
 
-// Whole poses that move with known rates, and whether the rates of what is made of them are its derivatives.
+// Whole poses that move with known rates, and whether the rates of results are their derivatives.
 
 #include <tweenfall/curves/pose.h>
 #include <tweenfall/curves/rotation.h>

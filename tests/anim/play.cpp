@@ -169,7 +169,7 @@ TEST_CASE("what says that events are too many is right for every stretch it spea
   Clip clip{.name = "buzz", .duration = 1, .loop = {LoopMode::repeat, 0}};
   clip.events.resize(3);
   for (const double speed : {1.0, -2.0, 1e3}) {
-    // The loop that is just long enough to be taken, from above.
+    // The shortest allowed loop, from above.
     const Play play{.speed = speed};
     double refused = 1e-12, taken = 10;
     while (taken - refused > 1e-9 * taken) {

@@ -9,7 +9,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-// A figure whose joints stand where told, their own axes lying in any way.
+// A figure with joints at given places, with arbitrary axes.
 Hierarchy figure_of(std::uint64_t seed, const std::vector<std::tuple<std::string, std::size_t, Vec3>>& places) {
   Random random(seed);
   std::vector<Node> nodes;

@@ -24,7 +24,7 @@ Hierarchy rooted_figure() {
   return Hierarchy(nodes);
 }
 
-// Even scales above the node that carries the figure.
+// Uniform scales above the node that carries the figure.
 std::vector<Motion> rooted_pose(std::uint64_t seed, double t) {
   std::vector<Motion> pose = moving_pose(seed, rooted_joints, t);
   pose[0].pose.scale = Vec3(1, 1, 1) * (1 + 0.3 * t);
@@ -53,7 +53,7 @@ Motion going(const Pose& pose, const Vec3& linear = {0, 0, 0}, const Vec3& angul
   return motion;
 }
 
-// A figure that goes on a screw: exp(t (turn, way)), by the closed form of its pose.
+// A figure that moves along a screw: exp(t (turn, way)), by the closed form of its pose.
 Motion on_screw(const Vec3& turn, const Vec3& way, double t) {
   Pose pose;
   pose.rotation = exp_map(t * turn);
@@ -161,7 +161,7 @@ TEST_CASE("ten thousand loops of a circle end where they began, and of a straigh
 
   const RootTravel straight({}, {.position = {1.7, 0, 0.3}});
   CHECK(near(straight.at({}, 10000).pose.position, Vec3(17000, 0, 3000), 1e-15));
-  // A step over the seam is as exact then as at first.
+  // A step over the seam is then as exact as at first.
   const Motion step = circle.step(going(first).pose, 9999, frame, 10001), same = circle.step(first, 0, frame, 2);
   CHECK(near(step, same, 1e-15));
   CHECK(near_pose(step.pose, compose(compose(once, once), start.pose), 1e-14));

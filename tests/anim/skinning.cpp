@@ -173,7 +173,7 @@ TEST_CASE("a limb that twists keeps its radius under dual quaternions and loses 
 }
 
 TEST_CASE("dual quaternions go along the screw between two rigid motions") {
-  // Half a turn about z at x = 1, and 4 along it: half way it is a quarter of a turn there, and 2 along.
+  // Half a turn about z at x = 1, and 4 along it: halfway it is a quarter of a turn there, and 2 along.
   Mesh mesh;
   mesh.positions = {{2, 0, 0}};
   mesh.influences.add({{0, 0.5}, {1, 0.5}});

@@ -44,7 +44,7 @@ inline const std::string thrown_document = R"({
   "handoff": [{"body": "ball", "when": {"at": 0.5}, "to": "free"}]
 })";
 
-/// Its third key stands before its second.
+/// Its third key comes before its second.
 inline const std::string faulty_document =
     R"({"tweenfall": 1,
  "clips": {"drop": {"tracks": {
@@ -70,7 +70,7 @@ inline std::string content(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// Where streams of a run are kept: not in its folder, whose files are counted.
+/// Where the output streams of a run are kept: not in its folder, whose files are counted.
 inline std::filesystem::path beside(const std::filesystem::path& folder, const char* what) {
   return folder.string() + "." + what;
 }
@@ -83,7 +83,7 @@ struct Ran {
   std::string out, err;
 };
 
-/// What a shell runs as the command: for a minute at most, then its code is 124.
+/// The command as a shell runs it: for a minute at most, then its exit code is 124.
 inline std::string command_word() {
   return "timeout 60 " + detail::quoted(TWEENFALL_COMMAND);
 }

@@ -1,4 +1,4 @@
-// Documents that once went wrong, as a user meets them: what the verbs say of each.
+// Documents that once went wrong, as a user meets them: what the verbs say about each.
 
 #include "command.h"
 
@@ -11,12 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a clone alone does not have.
+/// What a bare clone does not have.
 fs::path shared_faults() {
   return fs::weakly_canonical(fs::path(TWEENFALL_SOURCE_DIR) / "../shared/faults");
 }
 
-/// Those of the project, and those of the shared folder.
+/// The documents of the project, and those of the shared folder.
 std::vector<fs::path> fault_documents() {
   std::vector<fs::path> files;
   const auto add = [&](const fs::path& folder) {
@@ -34,7 +34,7 @@ std::vector<fs::path> fault_documents() {
   return files;
 }
 
-/// The document of this name, of the project or shared; none where it is a shared one and those are absent.
+/// The document of this name, of the project or shared; empty for a shared one if those are absent.
 std::vector<fs::path> named(const std::string& name) {
   std::vector<fs::path> found;
   for (const fs::path& file : fault_documents())
@@ -92,7 +92,7 @@ TEST_CASE("what check calls valid, run, sample, plot and view take; what it refu
       CAPTURE(five[i].arguments);
       const Ran ran = folder.run(with_file(five[i].arguments, file));
       CAPTURE(ran.err);
-      // Of several clips the verbs ask which, and that is a question and no verdict.
+      // With several clips the verbs ask which one, and that is a question and no verdict.
       const bool asks = ran.code == 2 && ran.err.find("--clip") != std::string::npos;
       if (verdict == 0)
         CHECK((ran.code == 0 || asks));

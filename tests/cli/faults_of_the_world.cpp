@@ -1,5 +1,5 @@
-// Documents that once broke the world, run through the command: the numbers that come out, frame by frame. Those of the
-// shared folder, and a variant of each with other numbers.
+// Documents that once broke the world, run through the command: the resulting numbers, frame by frame. They come from
+// the shared folder, each with a variant that has other numbers.
 
 #include "command.h"
 
@@ -47,7 +47,7 @@ double time_of(const nlohmann::json& recording, std::size_t frame) {
   return recording.at("times").at(frame).get<double>();
 }
 
-/// The farthest that a body gets from where it is in the first frame, m.
+/// The farthest that a body moves from where it is in the first frame, m.
 double strayed(const nlohmann::json& recording, const char* node) {
   double most = 0;
   for (std::size_t i = 0; i < frames_of(recording); ++i)
@@ -122,7 +122,7 @@ TEST_CASE("a tumbling box at restitution 1 has in no frame more energy than in t
 }
 
 TEST_CASE("a lift presses on what rides on it with gravity and its own acceleration, within one percent") {
-  // Height -amplitude cos(w t): the rider weighs g + amplitude w^2 cos(w t) for each kilogram.
+  // Height -amplitude cos(w t): the rider weighs g + amplitude w^2 cos(w t) per kilogram.
   struct Lift {
     double amplitude, hz;
   };

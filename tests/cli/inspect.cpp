@@ -44,7 +44,7 @@ TEST_CASE("inspect shows nodes, clips, tracks with keys and top speed, events, a
 
 TEST_CASE("the top speed is that of the curve, also between keys") {
   const Folder folder;
-  // A Hermite cubic from 0 to 1 with flat ends is fastest half way: 6u(1-u) = 1.5.
+  // A Hermite cubic from 0 to 1 with flat ends is fastest halfway: 6u(1-u) = 1.5.
   const Ran hermite = inspected(folder, R"("a.x": [{"t": 0, "v": 0, "out": "flat"}, {"t": 1, "v": 1, "in": "flat"}])");
   CHECK(words(line_of(hermite.out, "a.x")) == std::vector<std::string>{"a.x", "number", "2", "0", "1", "1.5", "0.5"});
 }

@@ -1,4 +1,4 @@
-// Documents whose stages once went wrong, run by the command and held against closed forms.
+// Documents whose stages once went wrong, run by the command and checked against closed forms.
 
 #include "command.h"
 
@@ -10,7 +10,8 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// What `run --json` says of a document of the shared folder of faults; nothing, loudly, in a clone alone.
+/// The output of `run --json` for a document of the shared folder of faults; empty, and reported loudly, in a bare
+/// clone.
 std::optional<nlohmann::json> shared_run(const std::string& name, const std::string& options) {
   const std::filesystem::path file =
       std::filesystem::path(TWEENFALL_SOURCE_DIR) / "../shared/faults" / (name + ".json");
@@ -24,7 +25,7 @@ std::optional<nlohmann::json> shared_run(const std::string& name, const std::str
   return nlohmann::json::parse(ran.out);
 }
 
-/// One list of a node, at the frame next to `time`.
+/// A list of a node, at the frame nearest to `time`.
 nlohmann::json at(const nlohmann::json& recording, const std::string& node, const char* what, double time) {
   const std::vector<double> times = recording["times"];
   std::size_t nearest = 0;
@@ -39,7 +40,7 @@ TEST_CASE("two bodies that meet at restitution 0 take the whole blow and go on a
   const auto run = shared_run("contact_trigger_at_restitution_0", "--until 1");
   if (!run) return;
   REQUIRE((*run)["handoffs"].size() == 1);
-  // They are 2 m apart, less their radii, and close at 6.3 m/s.
+  // They are 2 m apart, minus their radii, and close at 6.3 m/s.
   CHECK(near(double((*run)["handoffs"][0]["time"]), 1.6 / 6.3, 1e-6));
   REQUIRE((*run)["events"].size() == 1);
   CHECK(near(double((*run)["events"][0]["impulse"]), 0.7 * 3 / 3.7 * 6.3, 1e-3));
@@ -65,14 +66,14 @@ TEST_CASE("a keyed body that meets a static one is freed as they touch, and the 
   REQUIRE((*run)["handoffs"].size() == 1);
   CHECK(near(double((*run)["handoffs"][0]["time"]), 0.45, 1e-6));
   REQUIRE(!(*run)["events"].empty());
-  // What stops 0.4 kg at 2 m/s, and nothing of its weight after that.
+  // The impulse that stops 0.4 kg at 2 m/s, and nothing of its weight after that.
   CHECK(near(double((*run)["events"][0]["impulse"]), 0.8, 1e-3));
 }
 
 TEST_CASE("a body handed to a drive follows the path it was given, once it has settled") {
   const auto run = shared_run("rule_to_a_drive_with_a_path", "--until 4 --fps 60");
   if (!run) return;
-  // No play had begun the clip: it begins with the hand-off, at 0.3 s.
+  // No play had started the clip: it starts with the hand-off, at 0.3 s.
   for (const double time : {1.5, 2.0, 3.0, 4.0}) {
     const double x = vec(at(*run, "b", "position", time)).x();
     // A drive of 8 Hz feels the path's acceleration, 10.8 m/s^2 at most: 10.8 / w^2 = 4.3 mm behind.
@@ -86,7 +87,7 @@ TEST_CASE("a dead blend of many turns unwinds them all, never faster than it cam
   const double rate = 900 * pi / 180, seconds = 0.5;
   const std::vector<double> times = (*run)["times"];
   for (std::size_t i = 0; i < times.size(); ++i) {
-    // The turn from the path is (1 - fade)(pi/2 + rate t); by the product rule it turns so fast, t after 0.1 s.
+    // The turn from the path is (1 - fade)(pi/2 + rate t); by the product rule this is its rate, t after 0.1 s.
     const double since = times[i] - 0.1, u = since / seconds;
     double expected =
         u < 1 ? rate * (1 - u * u * (3 - 2 * u)) - 6 * u * (1 - u) / seconds * (pi / 2 + rate * since) : 0;

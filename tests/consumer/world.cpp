@@ -1,5 +1,5 @@
-// Steps a world, and uses of Eigen what the library uses: with other flags than the library's, so that whichever copy
-// of an inline function the linker keeps, the world must end in the same bits.
+// Steps a world, and uses the same parts of Eigen as the library, with other flags: whichever copy of an inline
+// function the linker keeps, the world must end in the same bits.
 
 #include <tweenfall/physics/joint.h>
 #include <tweenfall/physics/world.h>

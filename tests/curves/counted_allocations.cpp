@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-// In a file of its own: a compiler that sees both sides takes the pairs of them for mismatched.
+// In a file of its own: a compiler that sees both sides takes the pairs for mismatched.
 
 namespace {
 
@@ -43,7 +43,7 @@ void* operator new(std::size_t size) {
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return counted(size, static_cast<std::size_t>(alignment));
 }
-// A stable sort asks by this one, and gives back by the plain delete.
+// A stable sort allocates by this one, and frees by the plain delete.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   try {
     return counted(size, alignof(std::max_align_t));

@@ -22,7 +22,7 @@ inline Key<double> sloped(double time, double value, double rate, double weight 
   return {time, value, Ease::smooth_clamped(), slope, slope};
 }
 
-/// Steep, tiny, huge, jumping, resting, eased and formed curves, all with an end.
+/// Steep, tiny, huge, jumping, resting, eased and formula curves, all with an end.
 inline std::vector<Exhibit> museum() {
   std::vector<Exhibit> result;
   const auto add = [&result](const char* name, const Curve<double>& curve) { result.push_back({name, curve}); };

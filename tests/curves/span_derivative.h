@@ -1,6 +1,6 @@
 #pragma once
 
-// Derivatives of any order from a curve's polynomials, for tests of what two orders are not enough for.
+// Derivatives of any order from a curve's polynomials, for tests that need more than two orders.
 
 #include <tweenfall/curves/curve.h>
 

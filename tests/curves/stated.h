@@ -1,6 +1,6 @@
 #pragma once
 
-// How close to come is said in words in each file's conventions: the numbers in those words.
+// Each file's conventions state the required accuracy in words: these are the numbers in those words.
 
 #include "support.h"
 

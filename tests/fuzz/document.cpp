@@ -7,7 +7,7 @@
 using namespace tweenfall;
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t size) {
-  // Reading is what is fuzzed: steps on trial would take nearly all of the time.
+  // Reading is what is fuzzed: trial steps would take nearly all of the time.
   const ReadOptions options{.try_steps = false};
   try {
     const std::string text =

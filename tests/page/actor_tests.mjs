@@ -1,4 +1,4 @@
-// Particles and wheels, where they were recorded; what stands between is drawn, and nothing of it is black.
+// Particles and wheels are where they were recorded; states in between are drawn, and none of it is black.
 
 import {readFileSync} from "node:fs";
 import {join} from "node:path";
@@ -17,7 +17,7 @@ export async function showsActors(page, folder) {
     near(await page.evaluate("tweenfall.particlesOf('water')"), water.positions[frame].flat(),
       `particles are where they were recorded at ${fountain.times[frame]} s`);
   }
-  // Between two frames each goes on by its own velocity.
+  // Between two frames each moves on by its own velocity.
   const frame = fountain.times.length - 3, later = 0.01;
   await page.evaluate(`tweenfall.seek(${fountain.times[frame] + later})`);
   near(await page.evaluate("tweenfall.particlesOf('water')"),

@@ -1,4 +1,4 @@
-// Two recordings side by side: one clock, one way of looking, and what is done to one is done to the other.
+// Two recordings side by side: one clock, one view, and what is done to one is done to the other.
 
 import {join} from "node:path";
 import {pathToFileURL} from "node:url";

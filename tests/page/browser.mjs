@@ -14,7 +14,7 @@ export function findBrowser() {
 }
 
 export class Page {
-  // Of a smaller scale is a page that is drawn faster: of fewer pixels, where software draws.
+  // A smaller scale makes a page that is drawn faster, since it has fewer pixels, if software draws.
   static async open(browser, url, {width = 1280, height = 800, scale = 1, flags = []} = {}) {
     const page = new Page();
     page.scale = scale;
@@ -102,7 +102,7 @@ export class Page {
     return this.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))");
   }
 
-  // Whether the expression comes true within a generous while.
+  // Whether the expression becomes true within a generous time.
   async until(expression) {
     for (let tries = 0; tries < 200; ++tries) {
       if (await this.evaluate(expression)) return true;

@@ -1,4 +1,4 @@
-// Counting what holds and what does not.
+// Counts what holds and what does not.
 
 let failed = 0, checked = 0;
 
@@ -14,7 +14,7 @@ export const equal = (actual, expected, sentence) =>
 
 const farthest = (a, b) => (a.length === b.length ? Math.max(0, ...a.map((value, i) => Math.abs(value - b[i]))) : Infinity);
 
-// Places travel as single precision.
+// Positions are stored in single precision.
 export const near = (actual, expected, sentence, tolerance = 2e-6) =>
   check(farthest(actual, expected) <= tolerance * Math.max(1, ...expected.map(Math.abs)),
     `${sentence}: off by ${farthest(actual, expected)}`);

@@ -1,7 +1,7 @@
 #pragma once
 
 // A small stage whose motion is known in closed form, recorded without any simulation, so that what files and pages
-// show can be held against formulas: a pendulum that is let go and then bounces, a box that is carried, driven and
+// show can be checked against formulas: a pendulum that is let go and then bounces, a box that is carried, driven and
 // dropped, a capsule that rolls free, and a skinned strip that waves.
 
 #include <tweenfall/curves/functions.h>

@@ -1,4 +1,4 @@
-// Every key of the help sheet, pressed: what it does shows in the page's state. A key without a line here fails.
+// Every key of the help sheet, pressed: its effect shows in the page's state. A key without a line here fails.
 
 import {check} from "./checks.mjs";
 
@@ -46,7 +46,7 @@ export async function pressesEveryKey(page) {
       await page.key(key, 8);
       check(await page.evaluate("tweenfall.frame") - frame === shift[key], `"${name}" with shift goes ten frames`);
     }
-    // Switches go back by the same key.
+    // The same key switches back.
     if (look.startsWith("tweenfall.state.")) {
       await page.key(key);
       check(await page.evaluate(look) === before, `"${name}" pressed again takes it back`);

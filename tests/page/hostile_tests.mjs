@@ -71,7 +71,7 @@ const cases = {
   },
 };
 
-// Those that are about much: where software draws, they are shown without the scene.
+// The large ones: where software draws, they are shown without the scene.
 const large = ["many_nodes", "long"];
 
 export const showLarge = (page, folder) => show(page, folder, large);

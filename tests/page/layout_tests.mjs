@@ -35,7 +35,7 @@ async function fitsTheWindow(page, width, height) {
     check(right - left > 150 && bottom - top > (name === "header" || name === "transport" ? 20 : 28), `"${name}" has room at ${width} by ${height}`);
   checkRectangles(shown, width, height);
   checkRectangles(await rectangles(page, controls), width, height);
-  // What does not fit beside the rest waits behind a button.
+  // What does not fit beside the rest is behind a button.
   const toggles = await rectangles(page, "#options label");
   if (!toggles.length) {
     await page.evaluate("document.getElementById('show-options').click()");
@@ -46,7 +46,7 @@ async function fitsTheWindow(page, width, height) {
   } else {
     checkRectangles(toggles.concat(await rectangles(page, "header h1, #legend, header button")), width, height);
   }
-  // The playhead stands below the times that the ruler tells, which are 11 pixels high from the second on.
+  // The playhead is below the times on the ruler, which are 11 pixels high from the second on.
   const [[, top], [, ruler]] = await page.evaluate(`["playhead", "ruler"].map(id => document.getElementById(id).getBoundingClientRect()).map(box => [box.left, box.top])`);
   check(top >= ruler + 13, `the playhead covers no time at ${width} by ${height}: ${top - ruler}`);
   // Rows and their names.
@@ -77,7 +77,7 @@ export async function fitsAllWidths(page) {
   await page.resize(1280, 800);
 }
 
-// The names of eases stand below the curves, at any size. What is drawn is caught where it is drawn.
+// The names of eases are below the curves, at any size. Drawing is intercepted where it happens.
 export async function easesCoverNoCurve(page) {
   await page.evaluate(`(() => {
     const own = CanvasRenderingContext2D.prototype, words = new Set(tweenfall.lanes.flatMap(lane => lane.eases));

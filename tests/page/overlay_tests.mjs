@@ -1,6 +1,6 @@
 // What is drawn over the picture when it is switched on. Joints: where they were recorded, and gone once they ended. What
-// the steps worked with: contacts where bodies touch, islands in colors of their own, sleepers that fade, boxes that hold
-// their bodies.
+// the steps worked with: contacts where bodies touch, islands in colors of their own, sleepers that fade, boxes that
+// contain their bodies.
 
 import {readFileSync} from "node:fs";
 import {join} from "node:path";

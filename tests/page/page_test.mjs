@@ -1,4 +1,4 @@
-// What the page shows, held against the recording as JSON: page_test.mjs FOLDER with example.html and example.json.
+// What the page shows, checked against the recording as JSON: page_test.mjs FOLDER with example.html and example.json.
 
 import {readFileSync, writeFileSync} from "node:fs";
 import {join, resolve} from "node:path";
@@ -62,9 +62,9 @@ async function showsTheRecording(page) {
   }
 }
 
-// Between the frames, against the same motion recorded four times as often: cubics through place and velocity are of
-// fourth order (a pendulum of 0.5 Hz: w^4 h^4 / 384 = 2e-8), nearest frames were off by v h / 2 = 25 mm. Where a body
-// bounces between two frames without a contact event, nothing says when: those intervals are left out.
+// Between the frames, checked against the same motion recorded four times as often: cubics through positions and
+// velocities are of fourth order (a pendulum of 0.5 Hz: w^4 h^4 / 384 = 2e-8), nearest frames were off by v h / 2 = 25
+// mm. If a body bounces between two frames without a contact event, nothing says when: those intervals are left out.
 async function movesBetweenFrames(page) {
   const bounces = node => (frame, k) => Math.abs(node.velocity[k][1] - node.velocity[k - 1][1]) > 0.06 && frame;
   let compared = 0;
@@ -76,7 +76,7 @@ async function movesBetweenFrames(page) {
     const places = all.map(list => list[name]);
     for (let k = 1; k < fine.times.length; ++k) {
       const first = 4 * Math.floor(k / 4), last = Math.min(first + 4, fine.times.length - 1);
-      // What the contact event parts goes straight to both sides of it, without the fall within the frame.
+      // A motion split by a contact event is straight on both sides of it, without the fall within the frame.
       let broken = fine.times[k] > 71 / 60 + 1e-9 && fine.times[k] < 1.2;
       for (let i = first + 1; i <= last; ++i) if (corner(true, i)) broken = true;
       if (broken) continue;
@@ -97,7 +97,7 @@ async function movesBetweenFrames(page) {
 }
 
 async function bendsTheMesh(page) {
-  // The last row of the strip hangs on the third joint alone, 0.5 m above it.
+  // The last row of the strip depends on the third joint alone, 0.5 m above it.
   await page.evaluate(`tweenfall.seek(${recording.times[24]})`);
   const frame = 24, joint = recording.nodes["reed/2"];
   const m = matrixOf(joint.position[frame], joint.rotation[frame]);
@@ -199,7 +199,7 @@ async function chooses(page) {
     near(positions[axis], node.position.map(place => place[axis]), "the curves show the recorded positions");
     near(velocities[axis], node.velocity.map(rate => rate[axis]), "the curves show the recorded velocities");
   }
-  // The capsule rolls at 0.5 m/s on 0.15 m, through whole turns: its angles go on, and never jump by a half turn.
+  // The capsule rolls at 0.5 m/s on 0.15 m, through whole turns: its angles continue, and never jump by a half turn.
   const roller = await page.evaluate("tweenfall.curvesOf('roller')"), names = await page.evaluate("tweenfall.panelsOf('roller').map(panel => panel.name)");
   const angles = roller[names.indexOf("rotation")];
   for (const series of angles)
@@ -241,7 +241,7 @@ await run("with WebGL", {scale: 0.5}, async page => {
     isNeverEmpty]) await test(page);
 });
 
-// What needs no pictures of the scene: where they are drawn by software, they take nearly all of the time.
+// What needs no pictures of the scene: where software draws them, they take nearly all of the time.
 await run("without WebGL", {flags: ["--disable-3d-apis", "--disable-gpu"]}, async page => {
   equal(await page.evaluate("tweenfall.webgl"), false, "the page knows that there is no WebGL");
   equal(await page.evaluate("document.getElementById('no-webgl').hidden"), false, "it says so");

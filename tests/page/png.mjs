@@ -1,4 +1,4 @@
-// Pixels of a PNG as browsers write screenshots: 8 bits a channel, RGB or RGBA, not interlaced.
+// Pixels of a PNG as browsers write screenshots: 8 bits per channel, RGB or RGBA, not interlaced.
 // Source: PNG Specification, third edition, sections 9 (filters) and 11 (chunks).
 
 import {inflateSync} from "node:zlib";

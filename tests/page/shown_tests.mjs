@@ -1,4 +1,4 @@
-// What small documents show: held values that give way between two frames, bare nodes, long names, eases said once.
+// What small documents show: held values that change between two frames, bare nodes, long names, eases named once.
 
 import {join} from "node:path";
 import {pathToFileURL} from "node:url";
@@ -8,8 +8,8 @@ const opens = (page, folder, name) => page.visit(pathToFileURL(join(folder, name
 const boxOf = (page, selector) => page.evaluate(`(({left, top, right, bottom}) => ({left, top, right, bottom}))` +
   `(document.querySelector(${JSON.stringify(selector)}).getBoundingClientRect())`);
 
-// Recorded 30 times a second: 0.51 s and 1.19 s lie between frames. What is held holds until its very end, for what hangs
-// on it, too.
+// Recorded 30 times per second: 0.51 s and 1.19 s lie between frames. A held value holds until its very end, also for
+// what hangs on it.
 export async function holdsUntilTheEnd(page, folder) {
   await opens(page, folder, "held");
   const at = async time => {
@@ -20,7 +20,7 @@ export async function holdsUntilTheEnd(page, folder) {
   for (const [time, expected] of [[0.2, [0, 0, 1, 0, 1, 1, 1]], [0.509, [0, 0, 1, 0, 1, 1, 1]], [0.511, [1, 0, 2, 1, 2, 2, 1]],
     [1.189, [1, 0, 2, 1, 2, 2, 1]], [1.191, [3, 0, 4, 3, 4, 4, 0]], [1.9, [3, 0, 4, 3, 4, 4, 0]]])
     near(await at(time), expected, `places, sizes and color at ${time} s`, 1e-5);
-  // The keys' marks lie on what they hold.
+  // The marks of keys are on what they hold.
   near(await at(0.51), [1, 0, 2, 1, 2, 2, 1], "a key has its own value", 1e-5);
 }
 
@@ -64,7 +64,7 @@ export async function saysEasesOnce(page, folder) {
   check(!words.some(word => /^(hol|ho|li|lin|ste)/.test(word) && word.includes("\u2026")), "no word is cut");
 }
 
-// What only stands there, as a camera does, is not what one looks at.
+// What only stands there, such as a camera, is not what the view frames.
 export async function framesTheLinked(page, folder) {
   await opens(page, folder, "lone");
   equal(await page.evaluate("tweenfall.state.skeleton"), true, "bare nodes are shown where nothing else is");

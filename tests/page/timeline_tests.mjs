@@ -125,7 +125,7 @@ async function framesAndFollows(page) {
   await page.key("a");
 }
 
-// The outline of what collides: the crate of 0.5 m, the capsule of radius 0.15 m and half height 0.3 m.
+// The outlines of colliders: the crate of 0.5 m, the capsule of radius 0.15 m and half height 0.3 m.
 async function showsColliders(page) {
   await page.evaluate("tweenfall.seek(0)");
   const reach = async name => {

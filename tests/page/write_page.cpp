@@ -1,7 +1,7 @@
-// Writes what the page test looks at: write_page FOLDER
+// Writes the pages that the page test looks at: write_page FOLDER
 //
 // example.*: the example as a page and in every other form; example_fine.json: the same, four times as often.
-// models/NAME.html, .svg: every model of ../shared/models, or, where there is none, of the project.
+// models/NAME.html, .svg: every model of ../shared/models or, if there is none, of the project.
 // hostile/NAME.html: recordings that hardly fit a page.
 
 #include <tweenfall/importers/document.h>
@@ -67,7 +67,7 @@ void write_models(const fs::path& folder) {
   }
 }
 
-/// Two boxes on each other and one beside them, which fall asleep.
+/// Two boxes on top of each other and one beside them, which fall asleep.
 void write_stacked(const fs::path& folder) {
   StageDescription stage;
   stage.name = "stacked";
@@ -152,7 +152,7 @@ void write_actors(const fs::path& folder) {
   write("soft/cloth_positions.json", "cloth", 0.6);
 }
 
-/// Held values that give way between frames, a chain of bare nodes with a lone one far off, and names that are alike.
+/// Held values that change between frames, a chain of bare nodes with a lone one far off, and equal names.
 void write_documents(const fs::path& folder) {
   const auto write = [&](const std::string& name, const std::string& text) {
     const StageDescription stage = Document::parse(text, name + ".json", folder).stage();

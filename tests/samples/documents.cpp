@@ -143,7 +143,7 @@ TEST_CASE("the crane hoists at the speed that its inputs ask for, and lets go wh
   stage.advance_to(1.4);
   static_cast<void>(advance_with(asked, inputs, 1.4));
   CHECK(place(stage, "crate").y() > place(asked, "crate").y() + 0.04);
-  // Its reach takes half a second longer than its two seconds, for its speed comes up within the first.
+  // Its reach takes half a second longer than its two seconds, because its speed comes up within the first.
   stage.advance_to(6);
   REQUIRE(stage.handoffs().size() == 1);
   CHECK(near(stage.handoffs()[0].time, 1.5 + 2.5, 1e-9));

@@ -47,7 +47,7 @@ TEST_CASE("the car of the lectures climbs its ramp and stands there; the one who
   slides.advance_to(3);
   const Motion slid = motion_of(slides, "car");
   const Vec3 heading = slid.pose.rotation * Vec3(1, 0, 0);
-  CHECK(heading.x() < 0.5);  // by more than a right angle less 30 degrees
+  CHECK(heading.x() < 0.5);  // by more than a right angle minus 30 degrees
   CHECK(slid.pose.position.y() > 0.3);
 }
 
@@ -81,9 +81,9 @@ TEST_CASE("the fountain's water lies on no body's inside, and a recording of it 
 }
 
 TEST_CASE("ladders stand 2 percent steeper than they may lean, and slip 2 percent flatter") {
-  // Of length L, thickness 2 h and even mass, on ground of friction mu, at the wall that is smooth: moments about the
+  // With length L, thickness 2 h and even mass, on ground of friction mu, at a smooth wall: moments about the
   // foot give N L sin a = W (L/2 cos a - h sin a), and N = mu W when it slips, so tan a = 1 / (2 (mu + h / L)). At a
-  // wall as rough the wall holds mu N up: tan a = (1 - mu^2) / (2 (mu + h / L (1 + mu^2))).
+  // wall as rough as the ground the wall holds mu N up: tan a = (1 - mu^2) / (2 (mu + h / L (1 + mu^2))).
   const double mu = 0.4, share = 0.02 / 4;
   const double smooth = 1 / (2 * (mu + share)), rough = (1 - mu * mu) / (2 * (mu + share * (1 + mu * mu)));
   Stage stage = actors_lecture("contacts/ladders");
@@ -117,7 +117,7 @@ TEST_CASE("an agent's inputs are recorded, and given again they lead to the same
   CHECK(advance_with(again, inputs, played.time()).empty());
   CHECK(again.state_hash() == played.state_hash());
   CHECK(motion_of(again, "red").pose.position == motion_of(played, "red").pose.position);
-  // Without them it lies where it lay; with one it goes J / m t further.
+  // Without them it stays where it was; with one it moves J / m t farther.
   Stage alone = actors_lecture("agents/hockey"), pushed = actors_lecture("agents/hockey");
   alone.advance_to(1.5);
   CHECK(near(motion_of(alone, "red").pose.position, Vec3(-2, 0.05, 0), 1e-5));
@@ -171,7 +171,7 @@ TEST_CASE("springs in a plane swing about where the weight holds them, settle th
 TEST_CASE("in a plane balls that resist rolling stop after v^2 / 2a, and stay on a ramp of less than c / r") {
   Stage stage = actors_lecture("plane/rolling");
   const auto speed = [&](const char* node) { return stage.twist(stage.node(node)).linear.norm(); };
-  // 7/5 m a = c m g / r on the level; on the ramp of 1 in 10 what pulls is g (sin - c / r cos).
+  // 7/5 m a = c m g / r on level ground; on the ramp of 1 in 10 the pull is g (sin - c / r cos).
   const double slows = 5 * g * 0.01 / (7 * 0.25), slides = 5 * g * (0.1 - 0.01 / 0.25) / (7 * std::sqrt(1.01));
   stage.advance_to(1);
   CHECK(near(speed("free"), 1, 1e-6));
@@ -186,7 +186,7 @@ TEST_CASE("in a plane balls that resist rolling stop after v^2 / 2a, and stay on
 
 TEST_CASE("in a plane a pinion turns a wheel back by its teeth, and two on a rope move as Atwood's do") {
   Stage stage = actors_lecture("plane/gears");
-  // Balls of 2/5 m r^2; the pinion feels the wheel by the ratio's square.
+  // Balls of 2/5 m r^2; the pinion feels the wheel by the square of the ratio.
   const double moment = 0.4 * (1 * 0.09 + 0.25 * 4 * 0.36), fall = g / 5;
   const auto spin = [&](const char* node) { return stage.twist(stage.node(node)).angular.z(); };
   stage.advance_to(0.2);
@@ -235,7 +235,7 @@ TEST_CASE("in a plane ropes hang as a catenary, bear what is two thousand times 
     (2 * a * std::sinh(0.5 / a) > 1.3 ? low : high) = a;
   }
   CHECK(near(1.6 - stage.soft("line").positions[20].y(), low * (std::cosh(0.5 / low) - 1), 1e-3));
-  // The lamp swings on a cord that gives way nowhere.
+  // The lamp swings on a cord that does not yield.
   CHECK(near((motion_of(stage, "lamp").pose.position - Vec3(0, 1.6, 0)).norm(), std::sqrt(1.16), 1e-5));
   double highest = -10;
   for (const Vec3& place : stage.soft("thrown").positions) {
@@ -258,7 +258,7 @@ TEST_CASE("a machine in a plane: its mill turns as its motor says, its rod and w
   CHECK(near(stage.twist(stage.node("sail")).angular, Vec3(0, 0, pi), 1e-3));
   CHECK(stage.joint("tether").has_value());
   CHECK(stage.joint("eye")->position[0] < 20.5 * pi / 180);
-  // A spring of 1.5 Hz for the lift's 2 kg, under 5 kg.
+  // A spring of 1.5 Hz for the elevator's 2 kg, under 5 kg.
   const double droop = 5 * 9.81 / (2 * (3 * pi) * (3 * pi));
   CHECK(stage.joint("shaft")->position[0] == doctest::Approx(1.2 - droop).epsilon(2e-2));
   CHECK(stage.joint("shaft")->torque.z() != 0);

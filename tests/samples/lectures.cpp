@@ -57,7 +57,7 @@ TEST_CASE("each force of a document does what its closed form says") {
   CHECK(near(place_of(drag, "linear").x(), 12 / 0.4 * (1 - std::exp(-0.6)), 1e-7));
   Stage water = lecture("forces/buoyancy");
   water.advance_to(12);
-  // 0.6 of 0.4 m under; half a ball; the tower lies, 0.6 of its 0.4 m under as well.
+  // 0.6 of 0.4 m submerged; half a ball; the tower lies, with 0.6 of its 0.4 m submerged as well.
   CHECK(near(place_of(water, "raft").y(), -0.04, 5e-3));
   CHECK(near(place_of(water, "ball").y(), 0, 5e-3));
   CHECK(std::abs((water.world(water.node("tower")).motion.pose.rotation * Vec3(0, 1, 0)).y()) < 0.3);
@@ -74,7 +74,7 @@ TEST_CASE("each force of a document does what its closed form says") {
   CHECK(near(place_of(torque, "turned"), Vec3(0, -1.5, 0), 1e-9));
   CHECK(place_of(torque, "still") == Vec3(0, -3, 0));
   Stage field = lecture("forces/field");
-  field.advance_to(pi / 4);  // half a turn on a circle of 1/2 m
+  field.advance_to(pi / 4);  // half a turn on a circle of radius 1/2 m
   CHECK(near(place_of(field, "charge") - Vec3(0, 2, 0), Vec3(0, 0, 1), 1e-2));
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("in a plane a ball that is let go flies as the closed form says, and n
 }
 
 TEST_CASE("the swing on a spring gains, loses or keeps its energy as each integrator's own closed form says") {
-  // Of 16 J; in a step a method that makes z of 1 on x' = i w x changes the energy by |z|^2.
+  // Of 16 J; for x' = i w x, a method that turns 1 into z in a step multiplies the energy by |z|^2.
   const double y = 4.0 / 40, steps = 120;
   const auto changes = [&](const std::string& name, double share, double tolerance) {
     CAPTURE(name);
@@ -113,7 +113,7 @@ TEST_CASE("the swing on a spring gains, loses or keeps its energy as each integr
   changes("midpoint", 1 + std::pow(y, 4) / 4, 1e-9);
   changes("trapezoid", 1 + std::pow(y, 4) / 4, 1e-9);
   changes("rk4", 1 - std::pow(y, 6) / 72 + std::pow(y, 8) / 576, 1e-9);
-  // These three keep another sum than the energy, which so ripples: by y at most, or by y^2 / 4.
+  // These three keep another sum than the energy, which therefore ripples: by y at most, or by y^2 / 4.
   changes("semi_implicit_euler", 1, 1.1 * y);
   changes("verlet", 1, 1.1 * y * y / 4);
   changes("exact_quadratic", 1, 1.1 * y * y / 4);
@@ -141,7 +141,7 @@ TEST_CASE("the bullet passes the wall where it is looked for after the step, and
   for (Stage* stage : {&discrete, &ahead, &impact}) stage->advance_to(0.1);
   CHECK(place_of(discrete, "bullet").x() > 9);
   CHECK(place_of(ahead, "bullet").x() < 5);
-  // It meets the wall at 4.935 m and goes back at half its speed; the wall gives it no turn.
+  // It hits the wall at 4.935 m and goes back at half its speed; the wall does not turn it.
   CHECK(near(place_of(impact, "bullet").x(), 4.935 - 0.5 * (10 - 4.635), 1e-5));
   // The ball is dropped from 2 m and keeps 0.8 of its speed.
   impact.advance_to(1);

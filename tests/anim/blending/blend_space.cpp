@@ -53,7 +53,7 @@ double double_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-// The nearest point of the hull, by the ways between any two places.
+// The nearest point of the hull, from the segments between any two places.
 Vec2 nearest_by_pairs(std::span<const Vec2> places, const Vec2& p) {
   Vec2 best = places[0];
   for (const Vec2& a : places)
@@ -161,7 +161,7 @@ TEST_CASE("no entry of a blend plane lies inside the circle of a triangle, and t
                     (2 * double_area(a, b, c));
         for (const Vec2& p : plane.places()) CHECK((p - center).norm() >= (a - center).norm() * (1 - 1e-9));
       }
-      // A border that turns one way all around, with every entry on its inner side, is the hull's.
+      // A border that turns the same way all around, with every entry on its inner side, is the hull's.
       double whole = 0;
       const auto border = plane.border();
       for (std::size_t i = 0; i < border.size(); ++i) {

@@ -23,7 +23,7 @@ double along(const json& keys, double t) {
   return keys.back()[1].get<double>();
 }
 
-// A strip's place in its action, or nothing where it does not act; `doubtful` at the seam of a repeat.
+// A strip's place in its action, or empty if it does not act; `doubtful` at the seam of a repeat.
 struct StripTime {
   bool acts = false, doubtful = false;
   double action = 0, influence = 1;
@@ -53,7 +53,7 @@ StripTime strip_time(const json& strip, double t) {
   return result;
 }
 
-// What an action does to a motion: the channels that it has.
+// The effect of an action on a motion: on the channels that it has.
 void act(const json& action, double t, Motion& motion) {
   for (const auto& [property, channels] : action.items())
     for (const auto& [index, keys] : channels.items()) {
@@ -73,7 +73,7 @@ Motion times_by_number(const Motion& a, const Motion& b, const json& action) {
   return result;
 }
 
-// A clip of three.js's, sampled as it does, straight and along shortest arcs.
+// A clip of three.js, sampled as it does, linearly and along shortest arcs.
 Motion mixed_clip(const json& clip, double time, Motion motion) {
   for (const json& track : clip["tracks"]) {
     const json &times = track["times"], &values = track["values"];
@@ -115,7 +115,7 @@ TEST_CASE("layers of whole poses are Blender's strips: replaced, added, subtract
           const bool replaces = blend_type == "REPLACE" || blend_type == "MULTIPLY";
           Motion own = replaces ? shown : Motion{};
           act(action, at.action, own);
-          // Blender takes components of quaternions for numbers, and goes the long way where w is below 0.
+          // Blender treats components of quaternions as numbers, and goes the long way if w is below 0.
           const bool whole = at.influence == 0 || at.influence == 1;
           if (action.contains("rotation_quaternion") && !whole)
             turns_comparable &= blend_type == "COMBINE" && own.pose.rotation.w() >= 0;
@@ -155,7 +155,7 @@ TEST_CASE("a blend whose weights are shares of the whole is that of three.js's m
     for (const json& one : family["cases"]) {
       CAPTURE(one["name"].get<std::string>());
       const json& input = one["input"];
-      // The time that is told of an action runs forward; on each way back of a ping-pong another is sampled.
+      // The time reported for an action runs forward; on each way back of a ping-pong another is sampled.
       std::vector<char> turns_back(input["clips"].size());
       for (const json& op : input["ops"])
         if (op.size() > 3 && op[2] == "loop" && op[3] == "pingpong") turns_back[op[1].get<std::size_t>()] = 1;
@@ -190,8 +190,8 @@ TEST_CASE("a blend whose weights are shares of the whole is that of three.js's m
           layers.push_back({std::span<const Motion>(&motions.back(), 1), weight});
           sum += weight.value;
         }
-        // On the step on which a ping-pong ends three.js samples the way that would come next, and on the one after
-        // not.
+        // On the step on which a ping-pong ends, three.js samples the way that would come next, and on the one after
+        // does not.
         if (ends) continue;
         const Motion rest[]{original};
         Motion out[1];
@@ -199,7 +199,7 @@ TEST_CASE("a blend whose weights are shares of the whole is that of three.js's m
         out[0] = add(out[0], apart, added);
         ++checked;
         CHECK(near(out[0].pose.position, vec(value["position"]), 2e-5));
-        // Rotations, of which three.js blends one after the other, in an order.
+        // Rotations, which three.js blends one after the other, in some order.
         Motion folded = original;
         double so_far = 0;
         for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -211,7 +211,7 @@ TEST_CASE("a blend whose weights are shares of the whole is that of three.js's m
         folded = add(folded, apart, added);
         const Quat expected = quat(value["quaternion_xyzw"]).normalized();
         CHECK(near(folded.pose.rotation, expected, 3e-4));
-        // Of two they are the same.
+        // With two of them it makes no difference.
         const auto counting =
             std::ranges::count_if(layers, [](const PoseLayer& layer) { return layer.weight.value > 0; });
         if (counting + (sum < 1 ? 1 : 0) > 2) continue;

@@ -91,7 +91,7 @@ TEST_CASE("the running phase has the exact rates of the clock, the weights' rate
   };
   for (const double phase : {0.3, 1.2, 2.6, 3.8}) {
     const Sample<double> now = sync.running(phase, weights_at(0));
-    // A phase that runs so for a moment, to the second order.
+    // A phase that moves like this for a moment, to second order.
     const auto rate_at = [&](double t) {
       return sync.running(phase + now.rate * t + 0.5 * now.acceleration * t * t, weights_at(t)).rate;
     };

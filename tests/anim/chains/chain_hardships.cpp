@@ -1,4 +1,4 @@
-// All solvers and springs of chains: sizes from micrometers to thousands of kilometers, and no memory asked for.
+// All solvers and springs of chains: sizes from micrometers to thousands of kilometers, without memory allocation.
 
 #include "anim/chains/chain_support.h"
 #include "curves/counted_allocations.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Poses that move by closed forms, and differences of high order against which returned rates are held.
+// Poses that move by closed forms, and differences of high order against which returned rates are checked.
 
 #include "support.h"
 
@@ -12,7 +12,7 @@
 
 namespace tweenfall::test {
 
-/// A number that swings, with its rates.
+/// A number that oscillates, with its rates.
 struct Swing {
   double middle = 0, size = 0, frequency = 1, phase = 0;
 
@@ -108,7 +108,7 @@ auto difference(const F& f, double t, double h = 2e-3) {
   return Value(sum * (1 / h));
 }
 
-/// The largest error of the rates in a pose that `f` gives for a time, against differences: relative to the larger of 1
+/// The largest error of the rates in the poses of `f`, against differences: relative to the larger of 1
 /// and the rate.
 template <class F>
 double worst_rate(const F& f, double t, double h = 2e-3) {

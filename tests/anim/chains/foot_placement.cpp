@@ -33,7 +33,7 @@ WorldMotion node(const Hierarchy& nodes, const char* name, std::span<const Motio
   return world_of_node(nodes, nodes.find(name).value(), pose);
 }
 
-/// Legs whose bones are stiff and bend about their axes only, and everything else in motion.
+/// Legs whose bones are rigid and bend only about their axes, with everything else in motion.
 struct Walking {
   SwingingPose swing;
 
@@ -67,7 +67,7 @@ TEST_CASE("on a slope ankles stand above the ground as above the floor, soles li
   const FootPlacement placement(nodes, both_feet());
   const Vec3 normal = Vec3(0.3, 1, -0.1).normalized();
   const GroundAt ground = [&](const Sample<Vec3>& place) {
-    // The plane through the origin across the normal.
+    // The plane through the origin perpendicular to the normal.
     const double height = -(normal.x() * place.value.x() + normal.z() * place.value.z()) / normal.y();
     return Ground{.height = height, .normal = 3 * normal};
   };
@@ -153,7 +153,7 @@ TEST_CASE("the rates of placed feet are the derivatives of the pose, on hills th
       place_feet(placement, ground, {0.1 * t - 0.1, 0.1, 0}, {0.9 - 0.2 * t * t, -0.4 * t, 0}, weights, pose);
       return pose;
     };
-    // Legs that are all stretched move infinitely fast.
+    // Fully stretched legs move infinitely fast.
     bool stretched = false;
     for (const double t : {0.49, 0.5, 0.51})
       for (const char* name : {"shin.L", "shin.R"})

@@ -33,7 +33,7 @@ Hierarchy odd_chain(Random& random, std::size_t count) {
   return nodes;
 }
 
-/// Whether a joint keeps its limit, told by angles of its own.
+/// Whether a joint keeps its limit, computed from its own angles.
 void check_limit(const JointChain::Joint& joint, const Quat& local, double tolerance) {
   const Quat turn = joint.rest.conjugate() * local;
   if (const auto* hinge = std::get_if<HingeLimit>(&joint.limit)) {
@@ -115,7 +115,7 @@ TEST_CASE("a chain without limits stretches to what is too far, and folds before
       CHECK(finite(pose));
       CHECK(missed(chain, pose, way) == doctest::Approx(way.norm() - 3).epsilon(1e-9));
     }
-    // Bones of 1, 3 and 1 come no nearer than 1.
+    // Bones of 1, 3 and 1 get no nearer than 1.
     pose[2].pose.position = {0, 3, 0};
     for (const Vec3& way : {Vec3(0.5, 0, 0), Vec3(0, -0.2, 0.1), Vec3(0, 0, 0)}) {
       reach(chain, moving(way, {1, 2, 3}), wholly, pose);
@@ -211,7 +211,7 @@ TEST_CASE("chains with hinges and cones do not flip where their target moves on 
       double low = (i - 1.0) / parts, high = i * 1.0 / parts;
       std::vector<Motion> a = last, b = solved(high);
       last = b;
-      // Where much happens between two places: it must not happen at once.
+      // If much happens between two places, it must not happen at once.
       if (difference_of(a, b) < 0.03) continue;
       while (high - low > 1e-9) {
         const double middle = 0.5 * (low + high);
@@ -370,7 +370,7 @@ TEST_CASE("bones of a joint chain do not twist at once where the target leaves w
         const double hair = (limit == length ? 1e-12 : -1e-12) * length;
         reach(chain, still(places(before, 0) + (limit - hair) * ahead), wholly, inside);
         reach(chain, still(places(before, 0) + (limit + hair) * ahead), wholly, outside);
-        // A chain straightens as the root of what lacks.
+        // A chain straightens like the square root of what is missing.
         CHECK(difference_of(inside, outside) < 1e-4);
       }
     }

@@ -15,7 +15,7 @@ Vec3 along_x(double x) {
   return {x, 0, 0};
 }
 
-/// x'' + 2 z w x' + w^2 x = 0 from x0 and v0, the damped, the critical and the overdamped way.
+/// x'' + 2 z w x' + w^2 x = 0 from x0 and v0, the damped, the critical and the overdamped solution.
 double free_motion(double w, double z, double x0, double v0, double t) {
   if (z < 1) {
     const double d = w * std::sqrt(1 - z * z);
@@ -66,7 +66,7 @@ TEST_CASE("a spring sags by gravity over the square of its frequency, and falls 
 }
 
 TEST_CASE("a spring after a target that sets off evenly lags as the closed form says") {
-  // Seen from the target, it is struck by the speed at which that goes away from it.
+  // Relative to the target, it is struck with the speed at which the target moves away.
   const Path target = [](double t) { return moving({2 * t, 0, 0}, {2, 0, 0}); };
   for (const double damping : {0.0, 0.3, 1.0, 2.0}) {
     const SpringFollower spring({.hz = 1.5, .damping = damping});
@@ -239,7 +239,7 @@ TEST_CASE("a node that springs follows its place and rotation in the world, with
     return pose;
   };
   CHECK(worst_rate(at, 2.0025, 5e-4) < 1e-8);
-  // As the place's own spring, told the accelerations too.
+  // Like the position's own spring, given the accelerations too.
   const Path place = [&](double t) -> Sample<Vec3> {
     const WorldMotion world = world_of_node(nodes, 2, swing.at(t));
     const auto velocity = [&](double time) -> Vec3 {

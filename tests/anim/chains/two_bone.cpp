@@ -31,7 +31,7 @@ TEST_CASE("a two-bone chain reaches every target within reach to 1e-12 of its le
     const TwoBoneChain chain(nodes, {"thigh", "shin", "foot"});
     const SwingingPose swing(random, nodes, 0, 1);
     std::vector<Motion> pose = swing.at(random.between(0, 10));
-    if (i % 3 == 0) pose[2].pose.position = exp_map({0.2, 0, 0.3}) * pose[2].pose.position;  // not where it rests
+    if (i % 3 == 0) pose[2].pose.position = exp_map({0.2, 0, 0.3}) * pose[2].pose.position;  // away from its rest
     const Vec3 start = world_of_node(nodes, 1, pose).motion.pose.position;
     const double near_end = std::abs(thigh - shin) * size, far_end = (thigh + shin) * size;
     const Vec3 way = random.rotation() * Vec3(random.between(near_end, far_end), 0, 0);
@@ -103,7 +103,7 @@ TEST_CASE("the rates of a two-bone chain are the derivatives of its rotations") 
       return pose;
     };
     const double error = worst_rate(solved, 1, 1e-3);
-    // Where the differences straddle the border of reach, they tell nothing.
+    // If the differences straddle the border of reach, they say nothing.
     const auto at_border = [&](double t) {
       const Vec3 start = world_of_node(nodes, 1, swing.at(t)).motion.pose.position;
       const double d = (target.at(t).value - start).norm();
@@ -265,7 +265,7 @@ TEST_CASE("bones of any lengths fold up toward a target that is too near, and re
         reach(chain, {.target = still(part * least * way)}, fully, pose);
         const Vec3 foot = world_of_node(nodes, 2, pose).motion.pose.position;
         CHECK(std::abs(foot.norm() - std::max(part, 1.) * least) < 1e-10 * (thigh + shin));
-        // At the border itself the bend turns by the root of what the lengths are rounded by.
+        // At the border itself the bend turns by the square root of the rounding of the lengths.
         const double error = (part == 1 ? 1e-6 : 1e-10) * (thigh + shin);
         if (part > 0) CHECK(near(foot, std::max(part, 1.) * least * way, error));
       }

@@ -26,7 +26,7 @@ void set_word(std::vector<std::byte>& bytes, std::size_t at, std::uint64_t word,
   for (std::size_t k = 0; k < size; ++k) bytes[at + k] = static_cast<std::byte>(word >> (8 * k) & 0xff);
 }
 
-// With the length and the checksum that belong to its contents, as who forges them would write.
+// With the length and the checksum that match its contents, as a forger would write them.
 std::vector<std::byte> sealed_again(std::vector<std::byte> bytes) {
   const std::span<const std::byte> contents = std::span(bytes).subspan(header);
   std::uint64_t sum = 0xcbf29ce484222325U ^ contents.size();
@@ -127,7 +127,7 @@ TEST_CASE("forged bytes with a right checksum are refused or can be sampled, and
     const std::vector<std::byte> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
     CHECK_THROWS_AS((void)CrowdClip::from_bytes(sealed_again(cut)), std::invalid_argument);
   }
-  // Sizes and places are at the front; everything there gets the numbers that overflow.
+  // Sizes and places are at the front; they all get numbers that overflow.
   for (std::size_t at = header; at + 8 < std::min<std::size_t>(bytes.size(), header + 900); ++at)
     for (const std::uint64_t word : {0ULL, 1ULL, 0x7fffffffULL, 0x80000000ULL, 0xffffffffULL, 0x20000001ULL}) {
       std::vector<std::byte> forged = bytes;
@@ -141,7 +141,7 @@ TEST_CASE("forged bytes with a right checksum are refused or can be sampled, and
           static_cast<std::byte>(random.bits());
     attempt(sealed_again(forged));
   }
-  for (int i = 0; i < 500; ++i) {  // rotations that are none among them
+  for (int i = 0; i < 500; ++i) {  // some of them are no rotations
     std::vector<std::byte> forged = bytes;
     const double at = random.unit() * static_cast<double>(bytes.size() - header - 100);
     std::fill_n(forged.begin() + header + static_cast<std::ptrdiff_t>(at), 8 * (i % 12), std::byte{0});

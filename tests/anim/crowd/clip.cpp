@@ -12,7 +12,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-// Whole, as bytes: also what stands in unused lanes.
+// The whole clip as bytes, including unused lanes.
 bool same_groups(std::span<const CrowdGroup> a, std::span<const CrowdGroup> b) {
   return std::ranges::equal(std::as_bytes(a), std::as_bytes(b));
 }
@@ -168,7 +168,7 @@ TEST_CASE("rates are the derivatives of what the sampler returns") {
       Quat change = b.rotation * a.rotation.conjugate();
       const Vec3 turning = speed * log_map(change.normalized()) / (2 * h);
       for (int c = 0; c < 3; ++c) {
-        // A float's rounding over 2 h, and what the third derivative of a piece does.
+        // A float's rounding divided by 2 h, plus the third derivative of a piece.
         const double room = 3 * std::abs(speed) * (6e-8 * (1 + here.position.norm()) / h + 1e-2);
         CHECK(std::abs(rates[group].linear[c][lane] - linear[c]) <= room);
         CHECK(std::abs(rates[group].scale[c][lane] - scaling[c]) <= room);
@@ -190,7 +190,7 @@ TEST_CASE("one clock takes all of a clip through its loops, and a climb goes on 
     Random random(4);
     for (int i = 0; i < 200; ++i) {
       const double time = random.between(0.25, 5);
-      // What a climb adds is exact; but a turn that was 1e-5 rad off moves what was carried far by more.
+      // The added climb is exact; but a turn that was 1e-5 rad off moves what was carried far by more.
       CHECK(distance(exact, clip, time) <= 2e-4);
     }
   }
@@ -208,7 +208,7 @@ TEST_CASE("clips without tracks, joints or length compile, and rest") {
   }
   std::vector<CrowdGroup> first(still.groups());
   still.sample(0, first);
-  still.sample(NAN, pose);  // no time is the start
+  still.sample(NAN, pose);  // NaN counts as the start
   CHECK(std::memcmp(pose.data(), first.data(), first.size() * sizeof(CrowdGroup)) == 0);
 
   const CrowdClip nobody = compile(Clip{.name = "nobody", .duration = 1}, Hierarchy{});
@@ -234,7 +234,7 @@ TEST_CASE("what cannot be compiled is refused in words") {
   CHECK_THROWS_WITH_AS((void)compile(still, *nodes, {.tolerance = 0}), doctest::Contains("tolerance"),
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS((void)compile(still, *nodes, {.arm = -1}), doctest::Contains("arm"), std::invalid_argument);
-  // A tenth of a millimeter at the other end of a country is more than a float tells.
+  // A tenth of a millimeter at the other end of a country is below the precision of a float.
   Clip far{.name = "far", .duration = 1};
   far.tracks.push_back({"joint0", "position",
                         keyed_curve<Vec3>({{.time = 0, .value = {1e6, 0, 0}}, {.time = 1, .value = {2e6, 0.3, 0}}})});

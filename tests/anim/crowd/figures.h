@@ -40,7 +40,7 @@ inline Ease random_ease(Random& random) {
   return Ease::smooth_clamped();
 }
 
-/// Keys at uneven times, each leaving by an ease of its own; or lines, steps and jumps, now and then two within a
+/// Keys at uneven times, each leaving by an ease of its own; or lines, steps and jumps, sometimes two within a
 /// microsecond.
 template <class T, class Draw>
 Curve<T> random_keys(Random& random, double duration, const Draw& draw) {
@@ -115,7 +115,7 @@ inline double distance(const Hierarchy& nodes, std::span<const Motion> exact, st
   return farthest;
 }
 
-/// Of the crowd's clip from the exact path at a time of the stage.
+/// The distance of the crowd's clip from the exact path at a time of the stage.
 inline double distance(const Animation& exact, const CrowdClip& clip, double stage_time, double arm = 0.1) {
   std::vector<Motion> wanted(exact.nodes().size());
   exact.sample(stage_time, wanted);

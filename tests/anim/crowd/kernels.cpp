@@ -32,7 +32,7 @@ bool equal_bytes(const A& a, const B& b) {
   return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
 }
 
-// The definition, in double.
+// The definition, in double precision.
 Pose mean_pose(const std::vector<Pose>& poses, const std::vector<double>& weights) {
   Pose sum{.position = {0, 0, 0}, .rotation = Quat(0, 0, 0, 0), .scale = {0, 0, 0}};
   double total = 0;
@@ -91,7 +91,7 @@ TEST_CASE("weights of 0 and 1 give a crowd's inputs bit for bit, and the output 
     blend(std::vector<CrowdLayer>{{a, 0}, {b, 0.3F}}, out);
     CHECK(equal_bytes(out, b));
     blend(std::vector<CrowdLayer>{{a, -1}, {b, 0}}, out);
-    CHECK(equal_bytes(out, a));  // nobody has a weight: the first
+    CHECK(equal_bytes(out, a));  // without any weight: the first
     add(a, b, 0, out);
     CHECK(equal_bytes(out, a));
 
@@ -142,7 +142,7 @@ TEST_CASE("a crowd's joints are where the exact path has them") {
   for (const std::size_t size : figure_sizes) {
     const auto nodes = random_figure(size, size);
     auto pose = random_pose(random, size);
-    // Limbs that neither grow nor shrink without bound.
+    // Limbs that neither grow nor shrink without limit.
     for (CrowdGroup& group : pose)
       for (auto& axis : group.scale)
         for (float& factor : axis) factor = 0.8F + 0.2F * factor;

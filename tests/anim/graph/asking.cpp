@@ -1,4 +1,4 @@
-// Asking an animation that has graphs: from many threads, without memory, at times that are none.
+// Evaluating an animation that has graphs: from many threads, without memory allocation, at times that are NaN.
 
 #include "curves/counted_allocations.h"
 #include "graph_support.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Two figures and a ball, with clips that move all of it smoothly, for graphs that reach, look, stand and swing.
+// Two figures and a ball, with smooth clips that move all of it, for graphs that reach, look, stand and swing.
 
 #include "anim/chains/chain_support.h"
 

@@ -1,4 +1,4 @@
-// What goes through graphs beside poses, and what they take from outside.
+// Values that pass through graphs beside poses, and inputs from outside.
 
 #include "graph_support.h"
 
@@ -31,7 +31,7 @@ TEST_CASE("colors and morph weights go through a graph as the clips that show ha
   CHECK(near(look(1.4).color->value.rgba, Vec4(0.25 * 0.2 + 0.75, 0, 0.25 * 0.8, 1), 1e-12));
   CHECK(near(look(1.4).weights[0].value, (0.25 * 0.2 + 0.75) * 0.45, 1e-12));
   CHECK(near(look(1.4).weights[0].rate, (0.25 * 0.2 + 0.75) / 2, 1e-12));
-  // Half way through the fade; u^2 (3 - 2 u) rises at 1.5 / 0.4 s.
+  // Halfway through the fade; u^2 (3 - 2 u) rises at 1.5 / 0.4 s.
   const double before = 0.2 * 0.35, after = 0.8 * 0.1;
   CHECK(near(look(0.7).weights[0].value, 0.5 * (before + after), 1e-12));
   CHECK(near(look(0.7).weights[0].rate, 0.5 * (0.1 + 0.4) + 1.5 / 0.4 * (after - before), 1e-12));

@@ -12,7 +12,7 @@ namespace {
 using Kind = GraphCondition::Kind;
 using Change = GraphChange::Kind;
 
-/// Idle and walk by speed, a jump from anywhere that ends by itself, each change as given.
+/// Idle and walk by speed, a jump from anywhere that ends by itself, with the given changes.
 GraphDescription walker(const GraphChange& change) {
   return {.parameters = {{.name = "speed"}},
           .poses = {{"body",
@@ -76,7 +76,7 @@ TEST_CASE("every change, interrupted at random times, shows the exact rate of wh
     double worst = 0;
     for (int i = 0; i < 100; ++i) {
       const double time = random.between(0.01, player.time());
-      // A stencil does not reach over an instant at which something begins, or a clip has a key.
+      // A stencil must not reach over an instant at which something starts, or a clip has a key.
       const auto beside = [&](double instant) { return std::abs(time - instant) < 3e-4; };
       bool clear = true;
       for (const GraphPassage& each : passages) {
@@ -315,7 +315,7 @@ TEST_CASE("of several transitions that may be taken the first is") {
   GraphPlayer one(graph_of(described)), two(graph_of(described));
   one.set("x", 1);
   CHECK(states_of(one.passages(0)) == std::vector<std::size_t>{0, 2});
-  // At one instant, all that is set holds before anything is asked.
+  // At one instant, everything that is set holds before anything is read.
   two.set("x", 1);
   two.set("y", 1);
   CHECK(states_of(two.passages(0)) == std::vector<std::size_t>{0, 1});

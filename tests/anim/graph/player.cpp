@@ -9,7 +9,7 @@ namespace {
 
 using Kind = GraphCondition::Kind;
 
-/// All that a graph has: parameters that follow, a blend, layers over a machine that settles.
+/// Everything that a graph can have: parameters that follow, a blend, layers over a machine that settles.
 GraphDescription rich() {
   return {
       .parameters = {{.name = "speed", .half_life = 0.1}, {.name = "aim"}},

@@ -1,4 +1,4 @@
-// Graphs made at random of all operations: rates against differences of high order, and memory asked for.
+// Random graphs of all operations: rates against differences of high order, and memory allocation.
 
 #include "curves/counted_allocations.h"
 #include "figure_support.h"
@@ -31,7 +31,7 @@ class RandomGraph {
   }
   static constexpr int kinds = 13;
 
-  /// The same with clips in phase, machines that show one pose again and again, and ways that go on, in any order.
+  /// The same with clips in phase, machines that show one pose repeatedly, and continuing paths, in any order.
   GraphDescription make_lively(int poses) {
     GraphDescription graph = make(0);
     for (int i = 0; i < poses; ++i) {
@@ -126,7 +126,7 @@ TEST_CASE("graphs of any operations have the exact rates of what they show") {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     CAPTURE(seed);
     GraphPlayer player(figure_graph(RandomGraph(seed).make(RandomGraph::kinds)));
-    // In the middle of the steps of springs, which begin anew at 0.1 s and 1.6 s.
+    // In the middle of the steps of springs, which start over at 0.1 s and 1.6 s.
     for (const double time : {0.1 + 26.5 / 120, 0.1 + 140.5 / 120, 1.6 + 73.5 / 120}) {
       std::map<double, std::vector<Motion>> seen;  // the differences ask node by node
       const auto show = [&](double t) {
@@ -167,7 +167,7 @@ TEST_CASE("a graph of any operations gives the same bits whatever was asked befo
 }
 
 TEST_CASE("springs over springs, named again and again, take no longer than their number") {
-  // Without what is remembered each would ask the one below for all its way, several times: 6^8 poses per frame.
+  // Without caching, each would evaluate the one below for its whole way, several times: 6^8 poses per frame.
   GraphDescription graph = {.poses = {{"p0", BlendPose{{{"walk", 0.5}, {"idle", 0.5}}}}}};
   for (int i = 1; i <= 8; ++i) {
     const std::string base = "p" + std::to_string(i - 1), springy = "s" + std::to_string(i);

@@ -1,4 +1,4 @@
-// What a graph does on events of clips, and graphs in an animation that are told something.
+// What a graph does on events of clips, and graphs in an animation that get inputs.
 
 #include "graph_support.h"
 
@@ -9,7 +9,7 @@ namespace {
 
 using Kind = GraphCondition::Kind;
 
-/// Walks until something lands, and while it jumps its arm is up.
+/// Walks until something lands; while it jumps, its arm is up.
 GraphDescription reacting() {
   return {.name = "figure",
           .parameters = {{.name = "arm", .half_life = 0.1}, {.name = "steps"}},
@@ -55,7 +55,7 @@ TEST_CASE("events of clips that show set parameters and send events, at their ex
   CHECK(passages[1].time == 0.4);
   CHECK(near(passages[2].time, 0.4 + 1.25, 1e-15));
   CHECK(player.parameter("steps").value == 1);
-  CHECK(player.inputs().size() == 1);  // what follows by itself does not come in
+  CHECK(player.inputs().size() == 1);  // what follows by itself is no input
   player.seek(0.9);
   CHECK(player.parameter("steps").value == 0);
 }
@@ -208,20 +208,20 @@ TEST_CASE("no time is too far away for a graph that waits for events of loops") 
       .name = "figure",
       .parameters = {{.name = "pace"}},
       .poses = {{"gait", SpacePose{.by = {ByParameter{"pace"}}, .entries = {{"walk", {0, 0}}, {"idle", {1, 0}}}}}},
-      .reactions = {{"landed", "pace", 1}}};  // which is told by neither
+      .reactions = {{"landed", "pace", 1}}};  // which neither fires
   for (const Motion& motion : pose_of(animated({spaced}), 1e17)) CHECK(motion.pose.position.allFinite());
-  // What comes in from outside still counts, there and before.
+  // Inputs from outside still count, there and earlier.
   const Animation told = animation.with_input("figure", {.time = 10.5, .name = "ready", .value = 1});
   CHECK(told.graph("figure", 10.9).passages(0).size() == 1);
   CHECK(told.graph("figure", 11).passages(0).size() == 2);
 }
 
 TEST_CASE("a first event that lies outside of what is played is not looked for round by round") {
-  const Clip clip = (*three_clips())[0];  // tells one at 0.5 s
+  const Clip clip = (*three_clips())[0];  // fires one at 0.5 s
   const Player outside({.clip = 0, .from = 0.6}, clip), inside({.clip = 0, .from = 0.4, .to = 1.4}, clip);
   CHECK_FALSE(outside.first_event(clip, 0, 1e17, false, "breath"));
   CHECK(inside.first_event(clip, 10, 1e17, false, "breath")->time == doctest::Approx(10.1));
-  // Asked to be elsewhere, it told what it met before that.
+  // When it is moved elsewhere, it reports what it met before that.
   const Player moved = inside.changed(clip, 5, playing::SetSpeed{{{0, 0}}});
   CHECK(moved.first_event(clip, 4, 1e17, false, "breath")->time == doctest::Approx(4.1));
 }

@@ -1,5 +1,5 @@
-// At an instant at which a weight kinks, what arrives has the rate of the piece before, and what leaves of the one
-// behind.
+// At an instant at which a weight kinks, the arriving side has the rate of the piece before, and the leaving side that
+// of the piece after.
 
 #include "figure_support.h"
 #include "graph_support.h"
@@ -9,7 +9,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// Rises by 1 a second through 0 at 0.75 s and 1 at 1.75 s, or falls through them; exactly so, in numbers of two.
+/// Rises by 1 per second through 0 at 0.75 s and 1 at 1.75 s, or falls through them; exact in binary numbers.
 Curve<double> passing(bool rises) {
   const double first = rises ? -0.75 : 1.75;
   return keyed_curve<double>(

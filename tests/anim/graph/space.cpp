@@ -130,7 +130,7 @@ TEST_CASE("the rate of a phase is that of its value in a step in which weights k
 }
 
 TEST_CASE("a gliding parameter that is set changes no rate at once, wherever in a step a weight kinks") {
-  // It glides to and fro over the places of the poses, and is set anew again and again on the way.
+  // It glides back and forth over the places of the poses, and is set repeatedly during the motion.
   const GraphDescription plane = {
       .parameters = {{.name = "x", .half_life = 0.05}, {.name = "y", .half_life = 0.08}},
       .poses = {{"move", SpacePose{.by = {ByParameter{"x"}, ByParameter{"y"}},
@@ -156,7 +156,7 @@ TEST_CASE("a gliding parameter that is set changes no rate at once, wherever in 
     }
     CHECK(most.value < 1e-12);
     CHECK(most.rate < 1e-12);
-    // On either side of what is set the rate is that of the value, seen from within the piece.
+    // On either side of a setting the rate is that of the value, seen from within the piece.
     double error = 0;
     for (std::size_t i = 20; i < 600; i += 29)
       for (const double part : {0.1, 0.3, 0.7, 0.9})

@@ -1,4 +1,4 @@
-// Springs in graphs: as they are alone, the same at every frame rate, through every instant without a jump, and kept.
+// Springs in graphs: the same as alone, the same at every frame rate, through every instant without a jump, and saved.
 
 #include "figure_support.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 using Kind = GraphCondition::Kind;
 
-/// A head on springs and a tail that swings over a base that a parameter makes jump and a machine settle.
+/// A head on springs and a tail that swings over a base that jumps by a parameter and settles by a machine.
 GraphDescription lively() {
   return {.parameters = {{.name = "jump"}, {.name = "lean", .half_life = 0.2}},
           .poses = {{"mix", BlendPose{{{"walk", ByParameter{"jump"}}, {"idle", 0.5}}}},
@@ -44,7 +44,7 @@ void give(GraphPlayer& player, const GraphInput& input) {
     player.send(input.name);
 }
 
-/// Which sixth of a second a time is; -1 for none.
+/// The index of a time among sixths of a second; -1 for none.
 int frame_of_sixth(double time) {
   for (int i = 0; i <= 20; ++i)
     if (time == i / 6.0) return i;
@@ -107,7 +107,7 @@ TEST_CASE("springs come the same way at 30, 60 and 144 frames per second, forwar
     for (int frame = 0; frame <= rate * 20 / 6; ++frame) {
       const double time = static_cast<double>(frame) / rate;
       while (next < some_inputs.size() && some_inputs[next].time <= time) {
-        // What shows until just before is seen without what comes.
+        // What shows until just before does not depend on what comes.
         for (const double before : {some_inputs[next].time - 0.003, some_inputs[next].time - 1e-7})
           if (before > player.time()) seen.emplace_back(before, shown(player, before));
         player.seek(std::max(player.time(), some_inputs[next].time));

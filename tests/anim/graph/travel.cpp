@@ -1,4 +1,4 @@
-// Root motion that accumulates in a graph, held against closed forms: screws, straight ways, integrals of weights.
+// Root motion that accumulates in a graph, checked against closed forms: screws, straight paths, integrals of weights.
 
 #include "graph_support.h"
 
@@ -9,7 +9,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// exp(t (turn, way)): a figure that goes on a screw.
+/// exp(t (turn, way)): a figure that moves along a screw.
 Pose screw(const Vec3& turn, const Vec3& way, double t) {
   Pose pose;
   pose.rotation = exp_map(t * turn);
@@ -17,7 +17,7 @@ Pose screw(const Vec3& turn, const Vec3& way, double t) {
   return pose;
 }
 
-/// The root goes on a screw from rest, and the upper limb swings.
+/// The root moves along a screw from rest, and the upper limb swings.
 Clip walker(const std::string& name, const Vec3& turn, const Vec3& way, double duration) {
   Clip clip{.name = name, .duration = duration, .loop = {.mode = LoopMode::repeat}};
   const Vec3 rest(0, 1, 0);
@@ -149,7 +149,7 @@ TEST_CASE(
       {{.name = "speed", .curve = line(-0.2, 1.3, 0.1)}});
   for (int i = 1; i < 2000; ++i) {
     const double time = 0.8 * i / 2000, h = 1e-9;
-    // Fades begin with a kink of their own that is seen; where they end, none is.
+    // Fades begin with a visible kink of their own; where they end, there is none.
     const Motion before = pose_at(player, time - h)[0], behind = pose_at(player, time + h)[0];
     CAPTURE(time);
     REQUIRE((behind.twist.linear - before.twist.linear).norm() < 1e-6);
@@ -195,7 +195,7 @@ TEST_CASE("a way that fades in goes as far as the integral of its weight") {
             .states = {{"stand", "stand"}, {"walk", "walk"}},
             .transitions = {{.to = "walk", .when = {{Kind::time_in_state, {}, 0.5}}, .change = {.seconds = 0.6}}}}}});
   CHECK(carried(player, 0.5).position.norm() == 0);
-  // Of u^2 (3 - 2 u) over 0.6 s the half is gone; a straight way at 1.4 m/s otherwise.
+  // Of u^2 (3 - 2 u) over 0.6 s one half is over; otherwise a straight path at 1.4 m/s.
   CHECK(carried(player, 2.1).position.z() == doctest::Approx(1.4 * (0.3 + 1.0)).epsilon(1e-6));
 }
 
@@ -213,7 +213,7 @@ TEST_CASE("a way is the same bits whatever the frames and whoever asks, under sp
   for (int i = 0; i <= 60; ++i) seen.push_back(pose_at(fine, 0.05 * i));
   for (int i = 0; i <= 60; i += 12) CHECK(same_bits(pose_at(coarse, 0.05 * i), seen[static_cast<std::size_t>(i)]));
   for (int i = 60; i >= 0; i -= 7) CHECK(same_bits(pose_at(back, 0.05 * i), seen[static_cast<std::size_t>(i)]));
-  // What comes in takes effect from then on.
+  // Inputs take effect from then on.
   GraphPlayer told(graph), knowing(graph);
   told.seek(3);
   told.seek(2.5);

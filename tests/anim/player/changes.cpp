@@ -97,7 +97,7 @@ TEST_CASE("a seek fires what lies between only if asked, but leaves and enters i
   CHECK(sought(0.1, true) == "");
   CHECK(before.changed(clip, 0.25, playing::Seek{0.7}).clock(0.35).time == doctest::Approx(0.8));
   CHECK_THROWS_AS(static_cast<void>(before.changed(clip, 0.25, playing::Seek{2.5})), std::invalid_argument);
-  // What was over goes on.
+  // What was over continues.
   CHECK_FALSE(before.changed(clip, 5, playing::Seek{1}).clock(5.5).ended);
 }
 

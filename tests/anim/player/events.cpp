@@ -8,7 +8,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// Order within one time aside, which the pieces keep too.
+/// Ignores the order within one time, which the pieces keep too.
 std::vector<FiredEvent> in_pieces(const Player& player, const Clip& clip, const std::vector<double>& cuts) {
   std::vector<FiredEvent> all;
   double from = 0;
@@ -119,7 +119,7 @@ TEST_CASE("an event fires as often as the clock passes it, and then it is there"
     for (double t = 1e-3; t <= 8; t += 1e-3) {
       const double now = player.clock(t).time - mark;
       if (before * now < 0) ++passed;
-      // Where it turns just there, the steps are too wide to tell.
+      // If it turns exactly there, the steps are too wide to decide.
       close = close || (std::abs(now) < 2e-3 && std::abs(player.clock(t).rate) < 0.3);
       before = now;
     }
@@ -145,7 +145,7 @@ TEST_CASE("a seek that is asked for events tells each that lies between once, wi
   CHECK(sought(there_and_back, 0.5, 1) == "0:start\n0.5:end\n");
   CHECK(sought(there_and_back, 1.5, 1) == "0:start\n1:end\n1.5:end\n");
   CHECK(sought(there_and_back, 1.5, 0) == "0:start\n1:end\n1.5:start\n");
-  // Before it has moved: what it starts on belongs to its way, and what it comes to does not fire again.
+  // Before it has moved: where it starts belongs to its path, and where it arrives does not fire again.
   CHECK(sought({}, 0, 1) == "0:start\n0:end\n");
   CHECK(sought({.speed = -1}, 0, 0) == "0:end\n0:start\n");
   CHECK(sought({.at = 2}, 0.5, 1) == "0.5:start\n0.5:end\n");

@@ -39,7 +39,7 @@ TEST_CASE("a play that is over rests on the last key, also where that is held on
   CHECK(x_of(twice, {}, 2) == 1);
   CHECK(x_of(twice, {}, 4, Side::in) == 2);
   CHECK(x_of(twice, {}, 4) == 3);
-  // There and back it ends where it began, and a part of it before its last key.
+  // There and back, it ends where it began, and a part of it before its last key.
   CHECK(x_of(held({LoopMode::pingpong, 2}), {}, 9) == 1);
   CHECK(x_of(held({LoopMode::repeat, 1.25}), {}, 9) == 1);
   CHECK(x_of(held(), Play{.to = 1.0}, 9) == 1);

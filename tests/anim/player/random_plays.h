@@ -54,7 +54,7 @@ inline Play random_play(Random& random, const Clip& clip) {
   return play;
 }
 
-/// A player that was asked for this and that.
+/// A player that was asked for random changes.
 inline Player random_player(Random& random, const Clip& clip) {
   Player player(random_play(random, clip), clip);
   double time = 0;

@@ -77,7 +77,7 @@ TEST_CASE("times and weights are those of three.js's mixer, fades, loops and tim
             if (who == action) late.push_back({now, playing::FadeTo{0, seconds, Ease::linear()}});
             if (other == action) late.push_back({now, playing::Weigh{{{0, 0, Ease::linear()}, {seconds, 1}}}});
             if (!op[5].get<bool>()) continue;
-            // Their speeds meet: at first both clips last as the one that goes, in the end as the one that comes.
+            // Their speeds blend: at first both clips last as long as the leaving one, in the end as the arriving one.
             const double ratio = clips[who].at("duration").get<double>() / clips[other].at("duration").get<double>();
             warped = warped || who == action || other == action;
             if (who == action) late.push_back({now, playing::SetSpeed{{{0, 1, Ease::linear()}, {seconds, ratio}}}});
@@ -122,11 +122,11 @@ TEST_CASE("times and weights are those of three.js's mixer, fades, loops and tim
           const bool over = now > player.end() - 1e-3;
           CAPTURE(now);
           CAPTURE(action);
-          // What has faded out stands still there.
+          // There, what has faded out stands still.
           if (!over && frame.at("weight")[action] != 0) {
             const double said = frame.at("time")[action];
             if (warped) {
-              // A speed that changes acts step by step there, by what it is at the step's end.
+              // A changing speed acts step by step there, with its value at the step's end.
               const double before = i == 0 ? seek : each.at("value")[i - 1].at("time")[action].get<double>(),
                            step = player.clock(now, Side::in).rate * (now - at[i]);
               CHECK(std::abs(std::remainder(said - before - step, duration)) < 2e-5 * std::max(1.0, now));
@@ -168,7 +168,7 @@ TEST_CASE("clip time is the integral of the speed's keys, and its rate the speed
     const double dt = 4.0 / steps;
     for (int k = 0; k < steps; ++k) {
       const double own = k * dt;
-      // Simpson within pieces; where a key jumps inside one, that costs its width.
+      // Simpson's rule within pieces; if a key jumps inside one, that costs its width.
       way += dt / 6 * (speed.value(own) + 4 * speed.value(own + dt / 2) + speed.value(own + dt, Side::in));
       if (k % 500 != 499) continue;
       const ClipClock clock = player.clock(1 + own + dt);

@@ -1,4 +1,4 @@
-// Numbers that are finite and absurd: a curve is finite wherever it is asked, or was refused.
+// Numbers that are finite but absurd: a curve is finite wherever it is evaluated, or was refused.
 
 #include "support.h"
 
@@ -24,7 +24,7 @@ bool is_finite(const V& value) {
     return value.allFinite();
 }
 
-// Whether a curve that was made is finite at its keys and between them; a refusal is as good.
+// Whether a curve that was made is finite at its keys and between them; a refusal is fine.
 template <class Make>
 bool is_finite_or_refused(const Make& make) {
   try {

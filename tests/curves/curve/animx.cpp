@@ -38,7 +38,7 @@ double slope(const nlohmann::json& tangent) {
   return tangent[1].get<double>() / tangent[0].get<double>();
 }
 
-// Unweighted tangents say where to, not how far.
+// Unweighted tangents give a direction, not a length.
 Curve<double> hermite(const nlohmann::json& list, TangentKind kind) {
   std::vector<Key<double>> keys;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -88,7 +88,7 @@ void check(const Curve<double>& curve, const nlohmann::json& c, double inside, d
     if (std::find(knots.begin(), knots.end(), t) != knots.end())
       for (const Side side : {Side::in, Side::out})
         agrees = agrees || test::near(held.value(t, side), expected, tolerance);
-    // On a cycle's edge, to the rounding of its times, either side may be meant.
+    // On the edge of a cycle, within the rounding of its times, either side may be meant.
     const double plays = (t - curve.start()) / curve.duration();
     if (std::abs(plays - std::round(plays)) * curve.duration() < 1e-8)
       for (const double near_by : {t - 1e-8, t, t + 1e-8})
@@ -106,7 +106,7 @@ TEST_CASE("tangents, spans and infinities agree with AnimX") {
       const std::string name = c["name"];
       CAPTURE(name);
       const auto& input = c["input"];
-      // Too long handles are resolved otherwise there; their cases are for reading.
+      // Handles that are too long are resolved differently there; their cases are only for reading.
       if (input["overlong"].get<bool>()) continue;
       const TangentKind kind = kind_of(name);
       const auto curve = [&](TangentKind as) {

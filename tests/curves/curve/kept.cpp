@@ -10,7 +10,7 @@ using namespace tweenfall;
 namespace {
 
 constexpr std::size_t keys_kept = 200000;
-constexpr double whole_pages = 0.1;  // bytes per key, for memory comes in whole pages
+constexpr double whole_pages = 0.1;  // bytes per key, since memory comes in whole pages
 
 double time_of(std::size_t i) {
   return 0.1 * static_cast<double>(i) + 0.03 * static_cast<double>(i % 3);

@@ -83,7 +83,7 @@ TEST_CASE("modifiers agree with Blender's") {
     for (const auto& c : file["cases"]) {
       const std::string name = c["name"];
       CAPTURE(name);
-      // Blender's noise is its own; its cases are for reading.
+      // Blender's noise is its own; its cases are only for reading.
       if (name.find("informative") != std::string::npos) continue;
       std::vector<Modifier> list;
       for (const auto& j : c["input"]["modifiers"]) list.push_back(modifier(j));
@@ -175,7 +175,7 @@ TEST_CASE("both sides of an edge can be asked for") {
   CHECK(cycled.value(0, Side::in) == 2);
   CHECK(cycled.value(0) == 1);
   CHECK(cycled.value(6) == 3);
-  // Run backwards, what arrives is what leaves forwards.
+  // Run backwards, the arriving side is the forward leaving side.
   const Curve<double> mirrored = with(Cycles{Cycles::Mode::mirror, Cycles::Mode::mirror});
   CHECK(curve.value(1.5, Side::in) == 3);
   CHECK(mirrored.value(4.5, Side::in) == -2);

@@ -40,7 +40,7 @@ TEST_CASE("every question about every curve of the museum has a finite answer th
     }
     CHECK(seen_low >= r.low - slack);
     CHECK(seen_high <= r.high + slack);
-    // What is not seen may be narrow, but only as narrow as the curve's own spans.
+    // A missed stretch may be narrow, but only as narrow as the curve's own spans.
     const double whole = integral(curve, from, to);
     CHECK(std::isfinite(whole));
     if (curve.duration() > 0) CHECK(std::abs(whole / curve.duration() - sum) <= 1e-3 * (std::abs(sum) + size));
@@ -140,7 +140,7 @@ TEST_CASE("the inverse of a monotone curve takes each value back to its time") {
     }
     CHECK(time_of.value(curve.value(curve.end())) == doctest::Approx(curve.end()));
   }
-  // Rests and jumps: the first and the last time, and a time that stands.
+  // Rests and jumps: the first and the last time, and a time in between that is at rest.
   const Curve<double> stairs = keyed_curve<double>(
       {{0, 0, Ease::linear()}, {1, 1, Ease::linear()}, {2, 1, Ease::hold()}, {3, 4, Ease::linear()}, {4, 5}});
   const Curve<double> back = inverse(stairs);

@@ -33,8 +33,8 @@ Tangent<T> slope(const Rate<T>& rate) {
   return {TangentKind::given, rate};
 }
 
-// Keys whose ends say all that ends can say: another value before the first span than at its start, another after the
-// last one than at its end, and slopes on the outer sides.
+// Keys whose ends use everything that ends can have: another value before the first span than at its start, another
+// after last one than at its end, and slopes on the outer sides.
 template <class T>
 Curve<T> curve_through(const T& a, const T& b, const T& c, const Rate<T>& rate) {
   Key<T> first{1, a, *Ease::named("step-next")}, second{2, b, Ease::smooth()}, third{2.75, a, Ease::smooth()},
@@ -59,7 +59,7 @@ double apart(const Quat& a, const Quat& b) {
   return std::min((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
 }
 
-// Times all around the curve, its knots and seams from both sides among them.
+// Times all around the curve, including its knots and seams from both sides.
 template <class T, class F>
 void at_times(const Curve<T>& curve, const F& look) {
   const double reach = 3.3 * curve.duration();
@@ -129,7 +129,7 @@ TEST_CASE("beyond counted plays a curve rests, and a stated slope is gone on at,
       const auto rest = curve.sample(last + 1.25 * away);
       CHECK(apart(rest.value, curve.value(last, early ? Side::out : Side::in)) < 1e-12);
       CHECK(apart(rest.rate, zero<Rate<T>>()) == 0);
-      // Until then it plays as it does for ever.
+      // Until then it plays as it does forever.
       const auto endless = curve.with_outside({rule.rule}, {rule.rule});
       CHECK(apart(curve.value(last - 0.1 * away), endless.value(last - 0.1 * away)) < 1e-12);
     }
@@ -155,7 +155,7 @@ TEST_CASE("edited curves do outside what the curve did") {
     check_same(curve, reversed(back));
     CHECK(later.rule_before().plays == curve.rule_before().plays);
     CHECK(back.rule_before().plays == curve.rule_after().plays);
-    // New rules find their way through.
+    // New rules are applied.
     const auto [before, after] = all_rules<T>(curve.rate(curve.start()))[6];
     check_same(shifted(curve.with_outside(before, after), 2), later.with_outside(before, after));
     check_same(reversed(curve.with_outside(before, after)), back.with_outside(after, before));
@@ -200,7 +200,7 @@ TEST_CASE("integral, derivative and range count what happens outside") {
     using T = std::decay_t<decltype(curve.value(0))>;
     if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vec3>) {
       const double from = curve.start() - 2.2 * curve.duration(), to = curve.end() + 3.1 * curve.duration();
-      // Gauss's rule with two points between all places where the curve may kink or jump.
+      // Two-point Gauss rule between all places where the curve may kink or jump.
       std::vector<double> marks = {from, to};
       for (int k = -4; k <= 4; ++k)
         for (const double knot : curve.knots()) {

@@ -76,7 +76,7 @@ auto central_difference(const F& value, double t, double h) {
   return Change((8 * change(value(t + h), value(t - h)) - change(value(t + 2 * h), value(t - 2 * h))) / (12 * h));
 }
 
-// Times inside a stretch: not so near to its ends that a kink or an infinite rate there would show.
+// Times inside a stretch: not so near its ends that a kink or an infinite rate there would show.
 constexpr double shares[] = {0.11, 0.3, 0.52, 0.77, 0.9};
 
 template <class T>
@@ -84,7 +84,7 @@ void check_rates(const Curve<T>& curve) {
   const auto knots = curve.knots();
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     const double duration = knots[i + 1] - knots[i], h = 1e-4 * duration;
-    // What the span moves by in its own time: steep spans have large rates, and differences their rounding.
+    // How far the span moves in its own time: steep spans have large rates, and differences have their rounding.
     double pace = 1, force = 1;
     for (const double share : shares) {
       pace = std::max(pace, length(curve.rate(knots[i] + share * duration)));
@@ -103,7 +103,8 @@ void check_rates(const Curve<T>& curve) {
   }
 }
 
-// What the rate comes to over each stretch, by Simpson's rule in a variable that is slow where a rate may be infinite.
+// The integral of the rate over each stretch, by Simpson's rule in a variable that is slow where a rate may be
+// infinite.
 template <class T>
 void check_gain(const Curve<T>& curve) {
   if constexpr (!std::is_same_v<T, Quat>) {
@@ -211,7 +212,7 @@ TEST_CASE_TEMPLATE("every ease meets its keys, has the rates of its values and a
     CAPTURE(word);
     const std::optional<Ease> ease = Ease::named(word);
     REQUIRE(ease);
-    // Penner's wave has not died out where it rests, and goes there at once.
+    // Penner's wave has not died out where it comes to rest, and jumps there.
     check_all<T>(keys_of_ease<T>(*ease), jumps(word), word.starts_with("penner-elastic"));
   }
 }

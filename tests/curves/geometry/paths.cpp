@@ -48,7 +48,7 @@ TEST_CASE("a path's length is the circle's, as the points on it grow many") {
     const double fault = std::abs(c.rate(0.3).norm() - 2 * pi);
     CHECK(fault < before / 8);
     before = fault;
-    // Half the time is half the way round.
+    // Half the time is half the way around.
     CHECK(near(c.value(0.5), Vec3(-1, 0, 0), 1e-12));
   }
   CHECK(before < 1e-4);
@@ -70,7 +70,7 @@ TEST_CASE("lengths are those of the closed forms, and half of the time is half o
   const Curve<double> x = oscillator({}), y = oscillator({.phase = -pi / 2});
   const Curve<Vec3> helix = parametric(x, y, keyed_curve<double>({{0, 0, Ease::linear()}, {2, 1}}));
   CHECK_THROWS_WITH_AS((void)even_path(helix, 1), doctest::Contains("end"), std::invalid_argument);
-  // A helix at a pace that grows: its length is sqrt((2 pi)^2 + 0.5^2).
+  // A helix at an increasing pace: its length is sqrt((2 pi)^2 + 0.5^2).
   const Curve<Vec3> growing(
       [helix](double t, Side side) {
         Sample<Vec3> s = helix.sample(t * t, side);
@@ -144,7 +144,7 @@ TEST_CASE("a line leads from its first point to its second at a steady rate") {
   const Curve<Vec3> c = line({.from = {1, 2, 3}, .to = {3, 2, -1}, .duration = 2});
   CHECK(c.value(0) == Vec3(1, 2, 3));
   CHECK(c.value(2) == Vec3(3, 2, -1));
-  // At the start the way is all the first point's: weights 1 - u and u.
+  // At the start only the first point counts: weights 1 - u and u.
   CHECK(c.value(0.5) == Vec3(1.5, 2, 2));
   CHECK(c.rate(0) == Vec3(1, 0, -2));
   CHECK(c.rate(2, Side::in) == Vec3(1, 0, -2));

@@ -40,8 +40,8 @@ double distance(const T& a, const T& b) {
     return (a - b).cwiseAbs().maxCoeff();
 }
 
-// Everything that a case lists, each within `tolerance` of its largest number; what is nothing but the rounding of
-// something larger, of that.
+// Everything that a case lists, each within `tolerance` of its largest number; values that are only the rounding of
+// something larger, relative to that.
 template <class T>
 void check_case(const Curve<T>& curve, const Json& c, double tolerance) {
   const double size = largest(c["value"]);
@@ -185,7 +185,7 @@ TEST_CASE("limited Catmull-Rom slopes agree with the splines module, and so does
     const auto x = list<double>(c["input"]["x"]), y = list<double>(c["input"]["y"]), slopes = list<double>(c["slopes"]);
     const Curve<double> given = hermite_spline<double>(x, y, slopes);
     check_case(given, c, tolerance);
-    // The ends' slopes are the module's own; between them the rule is one.
+    // The ends' slopes are the module's own; between them the rule is the same.
     const Curve<double> own = keyed(c["input"], Ease::catmull_rom_monotone());
     for (std::size_t i = 1; i + 1 < x.size(); ++i) CHECK(test::near(own.rate(x[i]), slopes[i], tolerance));
     if (!c.contains("inverse") || c["inverse"].is_null()) return;

@@ -46,7 +46,7 @@ Curve<Vec2> half_circle(double radius) {
       0, 1);
 }
 
-// Normals stand on the triangles' outer sides.
+// Normals are on the triangles' outer sides.
 bool normals_agree(const SurfaceMesh& mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
     const auto a = mesh.triangles[i], b = mesh.triangles[i + 1], c = mesh.triangles[i + 2];
@@ -84,7 +84,7 @@ void check_second_order(const Make& make, double area, double volume) {
 }  // namespace
 
 TEST_CASE("turned circles, lines and triangles are tori, cylinders, cones and balls, to the second order") {
-  // Area and volume of Pappus: the way of the center times the profile's length and area.
+  // Area and volume by Pappus: the path of the center times the profile's length and area.
   check_second_order([](int n) { return lathe(circle(3, 1, 0.8), {.segments = n, .profile_steps = n}); },
                      4 * pi * pi * 3 * 0.8, 2 * pi * pi * 3 * 0.8 * 0.8);
   check_second_order(
@@ -175,7 +175,7 @@ TEST_CASE("a closed rail gives a closed tube without lids, even where it is knot
   CHECK(is_closed(mesh));
   CHECK(normals_agree(mesh));
   CHECK(mesh.positions.size() == 201 * 8);
-  // One ring more would be another tube: with a hole, Euler's number is 0.
+  // One more ring would be another tube: with a hole, Euler's number is 0.
   const SurfaceMesh whole = welded(mesh);
   CHECK(whole.positions.size() * 2 == whole.triangles.size() / 3);
 }
@@ -206,7 +206,7 @@ TEST_CASE("a twisted bar keeps its volume, and its normals lean with it") {
     const double fault = std::abs(measure(mesh).volume / (0.6 * 0.2 * 3) - 1);
     CHECK(fault < before / 3);
     before = fault;
-    // A corner's place moves by the twist rate times its arm; the normal is at right angles to that.
+    // A corner moves by the twist rate times its arm; the normal is perpendicular to that.
     const double rate = pi / 3;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       if (std::abs(std::abs(mesh.normals[i][2]) - 1) < 1e-9) continue;  // the lids

@@ -9,7 +9,7 @@ using namespace tweenfall;
 
 namespace {
 
-// The document's word for one of d3's functions; empty where there is none.
+// The document's word for one of d3's functions; empty if there is none.
 std::string word_of(const nlohmann::json& input) {
   static const std::map<std::string, std::string> families = {
       {"Quad", "quad"}, {"Cubic", "cubic"},     {"Sin", "sine"},      {"Exp", "expo"}, {"Circle", "circ"},
@@ -35,7 +35,8 @@ std::string word_of(const nlohmann::json& input) {
 void check_progress(const Ease& ease, const nlohmann::json& c, double tolerance) {
   for (std::size_t i = 0; i < c["t"].size(); ++i) {
     CAPTURE(c["t"][i].get<double>());
-    // What leaves the end of a shape is the next key's value; where the shape says otherwise, that arrives.
+    // The leaving value at the end of a shape is the next key's; if the shape ends elsewhere, that is the arriving
+    // value.
     const double t = c["t"][i];
     const Side side = t == 1 && ease.name().rfind("linear(", 0) == 0 ? Side::in : Side::out;
     CHECK(std::abs(ease.progress(t, side).value - c["value"][i].get<double>()) <= tolerance);

@@ -17,7 +17,7 @@ const std::set<std::string> shared_words = {
     "hold",        "linear",     "ease",   "natural",        "clamped", "uniform", "centripetal", "chordal",
     "catmull-rom", "not-a-knot", "smooth", "smooth-clamped", "spring",  "bezier",  "cubic",       "bounce"};
 
-// The words that stand as such in a source: a family's without the directions, a call's without its numbers.
+// The words as they occur in a source: a family's without the directions, a call's without its numbers.
 std::set<std::string> source_words() {
   std::set<std::string> words;
   for (const std::string& form : Ease::names()) {
@@ -43,7 +43,7 @@ TEST_CASE("each kind of ease is named in one file of the libraries") {
   for (const char* module : {"curves", "anim", "physics", "importers"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / module / "src")) {
       const std::string extension = entry.path().extension().string();
-      // What other programs call eases is a table of its own.
+      // The names of eases in other programs are a table of their own.
       if ((extension != ".cpp" && extension != ".h") || entry.path().filename() == "foreign_words.cpp") continue;
       const std::string text = test::text_of(entry.path());
       for (const std::string& word : words)

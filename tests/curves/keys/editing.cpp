@@ -85,7 +85,7 @@ TEST_CASE("loops are baked to spans that go the same way") {
       CHECK(baked.end() == to);
       check_same(curve, baked, from + 1e-9, to - 1e-9, 1e-9);
     }
-    // Rotations turn on and on.
+    // Rotations keep turning.
     const Quat a = Quat::Identity(), b = exp_map(Vec3(0.3, 0.9, -0.2));
     const Curve<Quat> turn =
         keyed_curve<Quat>({{0, a, Ease::smooth()}, {1, b, Ease::smooth()}, {3, a * b * b}}).with_outside(rule, rule);
@@ -155,7 +155,7 @@ TEST_CASE("keys taken from a curve make the same curve") {
   check_same(jump, keyed_curve<double>(std::span<const Key<double>>(keys)), 0, 3);
   CHECK_THROWS_AS((void)keys_of(keyed_curve<double>({{0, 0, *Ease::named("elastic-out")}, {1, 1}})),
                   std::invalid_argument);
-  // From a Bezier ease come its handles.
+  // A Bezier ease gives its handles.
   const std::vector<Key<double>> ease = keys_of(keyed_curve<double>({{0, 0, Ease::bezier(0.25, 0.1, 0.4, 1)}, {2, 4}}));
   CHECK(ease[0].out->weight == doctest::Approx(0.25));
   CHECK(ease[0].out->rate == doctest::Approx(0.1 * 4 / (0.25 * 2)));

@@ -61,8 +61,8 @@ TEST_CASE("a fit takes about as many keys as theory says it must") {
     const auto suited = static_cast<double>(fit(sine, error, {.slopes = FitSlopes::least_squares}).size() - 1);
     CHECK(suited <= spans);
   }
-  // A polyline needs sqrt(|y''| / (8 e)) lines to the unit of time, and can do with half the height both ways no
-  // better.
+  // A polyline needs sqrt(|y''| / (8 e)) lines per unit of time, and allowing half the height both ways does
+  // not help.
   CHECK(fit_linear(sine, 1e-4).size() <= 1.2 * turn * 0.763 / std::sqrt(8e-4) + 2);
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("samples are fitted by few keys that pass each of them within the erro
   CHECK(keys.size() < 40);
   const Curve<double> curve = built(keys);
   for (std::size_t i = 0; i < times.size(); ++i) CHECK(std::abs(curve.value(times[i]) - values[i]) <= error);
-  // With noise, slopes of least squares reach much farther than those of the noise.
+  // With noise, least-squares slopes are much better than those of the noise.
   for (double& v : values) v += random.between(-0.01, 0.01);
   const std::vector<Key<double>> own = fit_samples<double>(times, values, 0.03);
   const std::vector<Key<double>> suited =
@@ -138,7 +138,7 @@ TEST_CASE("reduced keys are some of the given ones and never farther off than th
     }
     CHECK(before < keys.size());
   }
-  // Keys on a line and keys that only repeat go altogether.
+  // Keys on a line and keys that only repeat are removed entirely.
   const std::vector<Key<double>> line = {{0, 0, Ease::linear()}, {1, 1, Ease::linear()}, {2, 2, Ease::linear()},
                                          {3, 3, Ease::smooth()}, {4, 3, Ease::smooth()}, {5, 3}};
   CHECK(reduce<double>(line, 1e-9).size() <= 4);

@@ -28,7 +28,7 @@ std::vector<HandleKey> bezier_keys(const nlohmann::json& list) {
   return keys;
 }
 
-// A key of Blender's; `kinds` false takes its handles as they lie.
+// A key of Blender's; `kinds` false takes its handles as they are.
 HandleKey blender_key(const nlohmann::json& g, bool kinds) {
   static const std::map<std::string, TangentKind> words = {{"FREE", TangentKind::given},
                                                            {"ALIGNED", TangentKind::aligned},
@@ -79,7 +79,7 @@ std::optional<Ease> blender_ease(const nlohmann::json& from, const nlohmann::jso
   const double duration = to["co"][0].get<double>() - from["co"][0].get<double>();
   if (word == "elastic") return elastic(from, flow, change, duration);
   if (word == "back" && from.contains("back"))
-    // Penner's way in and out goes further.
+    // Penner's way in and out goes farther.
     return Ease::named("back" + flow + "(" + exact(from["back"].get<double>() * (flow == "-in-out" ? 1.525 : 1)) + ")")
         .value();
   return Ease::named(word + flow).value();
@@ -94,7 +94,7 @@ std::vector<HandleKey> blender_keys(const nlohmann::json& list, bool kinds) {
   return keys;
 }
 
-// In Blender the end key's own interpolation says how the curve goes on.
+// In Blender the end key's own interpolation decides how the curve continues.
 OutsideRule<double> blender_outside(const nlohmann::json& input, const HandleKey& end, const nlohmann::json& stored,
                                     const HandleKey* neighbor) {
   const std::string kind = stored.value("interpolation", "BEZIER");
@@ -203,7 +203,7 @@ TEST_CASE("handles lie where Blender puts them, and the curve through them is Bl
         // Blender's times are float32; where the curve is steep their rounding is more than the tolerance.
         const double slip = std::abs(curve.rate(t)) * std::abs(t) * 0x1p-22;
         const double allowed = std::max(tolerance * size, std::min(slip, steep * size));
-        // A time in float32 that is a key's is on either side of its jump.
+        // A float32 time that is a key's may be on either side of its jump.
         CHECK((std::abs(curve.value(t) - expected) <= allowed ||
                std::abs(curve.value(t, Side::in) - expected) <= allowed));
       }

@@ -80,7 +80,7 @@ TEST_CASE("tracks agree with three.js") {
         for (std::size_t k = 0; k < t.size(); ++k) {
           const double at = t[k];
           CAPTURE(at);
-          // Between keys this close three does not slerp.
+          // Between keys this close, three does not slerp.
           bool close = false;
           for (std::size_t i = 0; i + 1 < keys.size(); ++i)
             close = close || (at >= keys[i].time && at <= keys[i + 1].time &&
@@ -174,7 +174,7 @@ TEST_CASE("pchip agrees with scipy") {
       double shortest = x.back() - x.front();
       for (std::size_t i = 1; i < x.size(); ++i) shortest = std::min(shortest, x[i] - x[i - 1]);
       const double speed = std::max(test::largest(c["derivative"]), test::largest(c["slopes"]));
-      // A straight line's second derivative is nothing but the rounding of its slopes.
+      // A straight line's second derivative is only the rounding of its slopes.
       const double bend = std::max(test::largest(c["second"]), speed / shortest);
       for (std::size_t k = 0; k < c["t"].size(); ++k) {
         CAPTURE(c["t"][k].get<double>());
@@ -426,7 +426,7 @@ TEST_CASE("tangents are aligned, mirrored and straight as they say") {
   stated[2].out = tangent(K::given, 0.5, 2.0 / 3);
   const Curve<double> d = keyed_curve<double>(stated);
   for (const double t : {3.2, 3.5, 3.9}) CHECK(c.value(t) == doctest::Approx(d.value(t)).epsilon(1e-14));
-  // Beside a side that states nothing, aligned is what that side does.
+  // Beside a side without a given slope, aligned means that side's slope.
   const Curve<double> beside_line =
       keyed_curve<double>({{0, 0, Ease::linear()}, {1, 2, Ease::smooth_clamped(), {}, tangent(K::aligned)}, {3, 3}});
   CHECK(beside_line.rate(1) == doctest::Approx(2));

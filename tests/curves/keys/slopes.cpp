@@ -162,7 +162,7 @@ TEST_CASE("every automatic rule joins smoothly over a loop") {
 }
 
 TEST_CASE("a run that crosses the seam of a loop is one run, wherever the loop is cut") {
-  // The same periodic motion begun at each of its keys in turn; one span is straight.
+  // The same periodic motion started at each of its keys in turn; one span is straight.
   const std::vector<double> durations = {0.5, 1, 0.25, 2, 0.75, 1.5}, values = {1, -2, 0.5, 3, 2.5, -1};
   const std::size_t n = values.size();
   for (const Rule& rule : automatic_rules()) {
@@ -261,7 +261,7 @@ TEST_CASE("turns follow every rule too: rotations about one axis are the curve o
       numbers.push_back({times[i], angles[i], rule.ease});
       turns.push_back({times[i], exp_map({0, 0, angles[i]}), rule.ease});
     }
-    // Numbers in a word are for every component, those of the other two axes too.
+    // Numbers in a word apply to every component, also those of the other two axes.
     if (rule.ease == Ease::clamped(-3, 2) || rule.ease == Ease::natural(4, -1)) continue;
     const Curve<double> angle = keyed_curve<double>(numbers);
     const Curve<Quat> turn = keyed_curve<Quat>(turns);

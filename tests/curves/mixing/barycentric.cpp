@@ -254,7 +254,7 @@ TEST_CASE("an aspect ratio keeps the area, and mixed by its logarithm passes the
 
 namespace {
 
-// `mix` is what the samples of curves and weights come to.
+// `mix` equals the samples of curves and weights combined.
 template <class T, class Mix>
 void check_mixed(const std::vector<Curve<T>>& values, const std::vector<Curve<double>>& weights, const Curve<T>& curve,
                  const Mix& mix) {

@@ -55,7 +55,8 @@ Color from_hex(const std::string& text) {
   return from_srgb(part(0), part(1), part(2), part(3));
 }
 
-// Whether a color without a hue meets one with a hue the longer way: CSS goes all the way around there, culori nowhere.
+// Whether a color without a hue is mixed with one that has a hue, the longer way: CSS goes all the way around there,
+// culori does not move.
 bool goes_around_from_none(const nlohmann::json& input) {
   if (rule_of(input["hue"]) != HueRule::longer) return false;
   const ColorSpace space = space_of(input["space"]);

@@ -67,7 +67,7 @@ TEST_CASE("the rates of a path at even speed are its derivatives: constant speed
     const Sample<Vec3> s = even.sample(t);
     const double h = 1e-5;
     CHECK((s.rate - (even.value(t + h) - even.value(t - h)) / (2 * h)).norm() <= 1e-6 * s.rate.norm());
-    // A difference across one of the knots, where the curvature jumps, tells nothing.
+    // A difference across one of the knots, where the curvature jumps, says nothing.
     const Vec3 before = even.sample(t - h).acceleration, after = even.sample(t + h).acceleration;
     if ((after - before).norm() > 1e-2 * (1 + s.acceleration.norm())) continue;
     CHECK((s.acceleration - (even.rate(t + h) - even.rate(t - h)) / (2 * h)).norm() <=

@@ -21,7 +21,7 @@ bool any_near(const std::vector<double>& times, double time, double tolerance) {
   return std::ranges::any_of(times, [&](double t) { return std::abs(t - time) <= tolerance; });
 }
 
-// Every time of the one list is in the other.
+// Every time in the one list is in the other.
 void check_same_times(const std::vector<double>& ours, const std::vector<double>& theirs, double tolerance) {
   for (const double time : theirs) CHECK_MESSAGE(any_near(ours, time, tolerance), "no time of ours near " << time);
   for (const double time : ours) CHECK_MESSAGE(any_near(theirs, time, tolerance), "ours alone has " << time);
@@ -75,7 +75,7 @@ TEST_CASE("Hermite curves agree with scipy in range, extremes and the times of a
       const std::vector<double> theirs = c["extrema_t"];
       for (const double time : ours) CHECK_MESSAGE(any_near(theirs, time, close), "ours alone has " << time);
       for (const double time : theirs) {
-        // Theirs are zeros of the rate; where it only touches zero, or the curve ends, ours need not tell any.
+        // Theirs are zeros of the rate; where it only touches zero, or the curve ends, ours may omit some.
         const bool inside = time - curve.start() > 2 * close && curve.end() - time > 2 * close;
         const bool passes = inside && curve.rate(time - 2 * close) * curve.rate(time + 2 * close) < 0;
         if (passes) CHECK_MESSAGE(any_near(ours, time, close), "no extreme of ours near " << time);
@@ -189,12 +189,12 @@ TEST_CASE("monotone curves are inverted as the splines module does") {
         CHECK(test::near(s.value, c["value"][k], tolerance * test::largest(c["value"])));
         CHECK(test::near(s.rate, c["derivative"][k], tolerance * std::max(1.0, test::largest(c["derivative"]))));
       }
-      // Where the data turn there is no inverse, and the file has none.
+      // Where the data turn, there is no inverse, and the file has none.
       if (!c.contains("inverse")) continue;
       const Curve<double> time_of = inverse(curve);
       for (std::size_t k = 0; k < c["inverse"]["t"].size(); ++k) {
         const double value = c["inverse"]["value"][k], time = c["inverse"]["t"][k];
-        // Their times have ten digits, which is all that can be asked for.
+        // Their times have ten digits, so no more can be asked.
         CHECK(test::near(time_of.value(value), time, 1e-9));
         CHECK(std::abs(curve.value(time_of.value(value)) - value) <= tolerance * test::largest(c["value"]));
         const Sample<double> s = time_of.sample(value);

@@ -19,10 +19,10 @@ TEST_CASE("each kind of key is as smooth as its rule says") {
       with_knot(keyed_curve<double>({{0, 0, Ease::smooth()}, {1, 3, Ease::smooth()}, {3, 1}}), 0.4);
   CHECK(continuity(cut)[1] == Continuity::smooth);
   CHECK(continuity(cut)[2] == Continuity::rate);
-  // Cut within the handles' span every derivative goes on, of whatever order.
+  // Cut within the handles' span, derivatives of every order are continuous.
   const Curve<double> handles = with_knot(keyed_curve<double>({{0, 0, Ease::bezier(0.7, 0, 0.5, 1)}, {2, 5}}), 0.6);
   CHECK(continuity(handles)[1] == Continuity::smooth);
-  // The seam of a loop is judged with what comes around.
+  // The seam of a loop is judged with what follows around it.
   const Curve<double> wheel = keyed_curve<double>({{0, 0, Ease::linear()}, {1, 2}});
   CHECK(continuity(wheel)[1] == Continuity::value);
   CHECK(continuity(wheel.with_outside(Outside::hold, Outside::repeat))[1] == Continuity::jump);
@@ -97,7 +97,7 @@ TEST_CASE("curves differ exactly where one was changed") {
   CHECK(apart[0].to == doctest::Approx(1));
   CHECK(apart[1].from == doctest::Approx(3));
   CHECK(apart[1].to == 4);
-  // Two different timings of the same way, both with handles.
+  // Two different timings of the same path, both with handles.
   const Curve<double> early = keyed_curve<double>({{0, 0, Ease::bezier(0.1, 0.5, 0.5, 1)}, {1, 1}});
   const Curve<double> late = keyed_curve<double>({{0, 0, Ease::bezier(0.9, 0.1, 0.9, 0.5)}, {1, 1}});
   CHECK(differences(early, late, 0, 1).size() == 1);

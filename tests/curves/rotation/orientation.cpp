@@ -15,7 +15,7 @@ Vec3 within(test::Random& random, double most) {
   return random.between(0, most) * random.vector(1).normalized();
 }
 
-/// A spinning top that nothing turns, its moments a, a and c: where its closed form says.
+/// The closed form of a spinning top without torque, with moments a, a and c.
 /// Source: Goldstein, Poole, Safko, Classical Mechanics, 5.6: it precesses about its momentum at |L| / a, and turns on
 /// its own axis beside that at w3 (a - c) / a.
 struct Top {
@@ -36,7 +36,7 @@ double turn_between(const Quat& a, const Quat& b) {
   return log_map(a * b.conjugate()).norm();
 }
 
-/// Turned from 0 to 1 s by the velocity in the middle of each step; how far off at the end.
+/// Turned from 0 to 1 s by the velocity in the middle of each step; the error at the end.
 template <class Step, class State, class ToQuaternion>
 double off_after(int steps, State state, const Step& step, const ToQuaternion& to_quaternion) {
   const Top top;
@@ -140,7 +140,7 @@ TEST_CASE("products drift by rounding alone, and what is renormalized is a rotat
     CHECK((made - bent).cwiseAbs().maxCoeff() < 0.3);
     CHECK(std::abs(drift(quaternion_of(bent))) < 1e-15);
   }
-  // Columns that are nearly one still make a rotation.
+  // Columns that are nearly the same still make a rotation.
   for (const double apart : {1e-3, 1e-7, 1e-11}) {
     Mat3 flat = matrix_of(within(random, 3));
     flat.col(1) = flat.col(0) + apart * flat.col(1);

@@ -115,7 +115,7 @@ TEST_CASE("Euler angles agree with scipy in all orders, turning and fixed axes")
         order.intrinsic = intrinsic;
         const Quat expected = quat(c[intrinsic ? "intrinsic_q_xyzw" : "extrinsic_q_xyzw"]);
         CHECK(test::near(from_euler(angles, order), expected, 1e-12));
-        // Angles are not unique; the rotation they stand for is. At gimbal lock half the digits go.
+        // Angles are not unique; the rotation they represent is. At gimbal lock half the digits are lost.
         const Vec3 found = to_euler(normalized(expected), order);
         CHECK(test::near(from_euler(found, order), expected, 3e-7));
       }

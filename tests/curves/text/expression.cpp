@@ -15,7 +15,7 @@ struct Pair {
   std::function<long double(long double)> meaning;
 };
 
-// Smooth and finite at every t: arguments of what is not are kept in range.
+// Smooth and finite at every t: arguments of partial functions are kept in range.
 Pair random_pair(Random& random, int depth) {
   if (depth == 0 || random.unit() < 0.1) {
     if (random.unit() < 0.6) return {"t", [](long double t) { return t; }};

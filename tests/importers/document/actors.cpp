@@ -43,11 +43,11 @@ TEST_CASE(
   CHECK(spray.settings.most == 500);
   CHECK(spray.forces.size() == 2);
   CHECK_FALSE(spray.collide);
-  // The world's, where particles say none
+  // The gravity of the world, for particles without their own
   CHECK(plain.settings.gravity == Vec3(0, -3.7, 0));
   CHECK(plain.emitters[0].speed.value(0) == 2);
   CHECK(plain.emitters[0].direction == Vec3(0, 1, 0));
-  // It runs, and what is written is read again as the same.
+  // It runs, and reading what is written gives the same.
   Stage run(stage);
   run.advance_to(2);
   CHECK(run.particles("plain").positions.size() == 10);

@@ -11,7 +11,7 @@ TEST_CASE("every bad document says exactly what is pinned beside it") {
       CHECK_MESSAGE(!said.empty(), "this document loads");
       std::filesystem::path pin = file;
       pin.replace_extension(".txt");
-      // Set once by hand when a message is changed on purpose; the change is then read in the diff.
+      // Set once by hand when a message is changed on purpose; the change is then visible in the diff.
       if (const char* write = std::getenv("TWEENFALL_WRITE_PINS"); write && *write) {
         std::ofstream(pin, std::ios::binary) << said;
         continue;

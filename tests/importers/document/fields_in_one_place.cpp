@@ -1,5 +1,5 @@
-// A field of a body, a play, a rule or the world, and the word of a shape, stand in the file of their thing and nowhere
-// else.
+// Each field of a body, a play, a rule or the world, and the word of each shape, is named in the file of its thing and
+// nowhere else.
 
 #include "support.h"
 
@@ -28,7 +28,7 @@ const std::set<std::string> words_of_others = {
     "color",        "plane",    "direction",   "forces",         "groups",
     "collides_with"};
 
-// A source without its comments, and without what its forms are called in the schema.
+// A source without its comments, and without the names of its forms in the schema.
 std::string code_of(const std::filesystem::path& file) {
   std::istringstream text(test::text_of(file));
   std::string out;
@@ -45,7 +45,7 @@ std::map<std::string, std::vector<std::string>> files_of(const std::set<std::str
   const std::filesystem::path root = std::filesystem::path(TWEENFALL_SOURCE_DIR) / "importers" / "src" / "document";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     const std::string extension = entry.path().extension().string();
-    // The document that `new` writes is a document, and files of inputs say what they ask for by the same words.
+    // The document that `new` writes is a document, and files of inputs use the same words for what they ask.
     if (entry.path().parent_path().filename() == "inputs") continue;
     if ((extension != ".cpp" && extension != ".h") || entry.path().filename() == "starting_document.cpp") continue;
     const std::string code = code_of(entry.path());
@@ -65,7 +65,7 @@ std::set<std::string> fields_of(const std::string& definition) {
 }  // namespace
 
 TEST_CASE("each field of a body, a play, a rule or the world is named in one file of the document's reader") {
-  // What a rule does to its bodies is a change, which may come after others too.
+  // What a rule does to its bodies is a change, which may come after other changes too.
   const std::set<std::string> of_change = fields_of("change");
   for (const char* thing : {"body", "play", "rule", "world"}) {
     std::set<std::string> fields = fields_of(thing);

@@ -54,7 +54,7 @@ TEST_CASE("the gallery has a curve of every kind that the schema knows") {
   check_words(definitions.at("tangent-number").at("anyOf").at(0).at("enum"));
   check_words(definitions.at("outside-number").at("anyOf").at(0).at("enum"));
   Json fields = definitions.at("modifier").at("properties");
-  // What a track can have in place of keys, and what no kind of curve is.
+  // What a track can have in place of keys, and what is no kind of curve.
   for (const char* track : {"track-number", "track-position", "track-degrees", "track-quat", "track-scale"})
     fields.update(definitions.at(track).at("properties"));
   for (const char* option : {"kind", "relative", "overlong", "ends", "influence"}) fields.erase(option);

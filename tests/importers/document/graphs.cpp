@@ -201,7 +201,7 @@ TEST_CASE("a clip with faults is told of once, not again by the graphs that play
 
 TEST_CASE("what a fault leaves out of a graph is not told as missing beside it") {
   const std::string parts[] = {
-      // An entry of a space, its parameters, its places; a parameter; what waits for an event; what adds
+      // An entry of a space, its parameters, its places; a parameter; a transition that waits for an event; an addition
       R"("a": {"space": {"by": "v", "poses": [[0, 7], [1, "walk"]]}}}, "parameters": {"v": 0)",
       R"("a": {"space": {"by": ["v", 7], "poses": [[[0, 0], "walk"], [[1, 0], "walk"]]}}}, "parameters": {"v": 0)",
       R"("a": {"space": {"by": ["v", "v"], "poses": [[true, "walk"], [[1, 0], "walk"]]}}}, "parameters": {"v": 0)",
@@ -214,7 +214,7 @@ TEST_CASE("what a fault leaves out of a graph is not told as missing beside it")
     CAPTURE(told);
     CHECK(count(told, "error:") == 1);
   }
-  // What is wrong elsewhere in the graph is told all the same.
+  // Faults elsewhere in the graph are reported all the same.
   CHECK(count(graph_faults(R"("a": {"space": {"by": "v", "poses": [[0, 7], [1, "walk"]]}}, "b": {"clip": "wlak"}},
                               "parameters": {"v": 0)"),
               "error:") == 2);

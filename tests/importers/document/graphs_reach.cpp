@@ -114,7 +114,7 @@ TEST_CASE("on a stage a leg that reaches for a ball is there, and its joints cou
 }
 
 TEST_CASE("a figure that rests with its arms down, and looks another way, follows one that rests with its arms out") {
-  // The robot's own axes lie otherwise too: its bones run along y, and it looks along x.
+  // The robot's own axes are different too: its bones run along y, and it looks along x.
   const auto stage_of = [](const std::string& more) {
     return Stage(parsed(R"({"tweenfall": 1,
       "nodes": {"hips": {"position": [0, 1, 0]},

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <ctime>
 
-// What is asked too much of physics, through a document: told with its place, or it runs; never a number that is none,
-// and never without end.
+// Excessive demands on physics, through a document: refused with its place, or it runs; never with a NaN, and
+// never without end.
 
 namespace tweenfall::hostile_documents {
 
@@ -35,7 +35,7 @@ bool is_finite(const Stage& stage) {
   });
 }
 
-/// Steps it for a while; each step ends with numbers.
+/// Steps it for a while; each step ends with finite numbers.
 void run(Stage& stage, double seconds) {
   const double until = stage.time() + seconds;
   while (stage.time() < until) {

@@ -34,7 +34,7 @@ TEST_CASE("each of a world's strategies has its word") {
     CAPTURE(text);
     const Document document = Document::parse(text, "words.json", {});
     CHECK(document.stage().world.*part == meant);
-    // What is usual is left out, and the rest is written as it was read.
+    // Defaults are left out, and the rest is written as it was read.
     const bool usual = meant == decltype(meant){};
     CHECK((document.text().find(word) == std::string::npos) == usual);
   };

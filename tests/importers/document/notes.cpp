@@ -158,7 +158,7 @@ TEST_CASE("a step that is a rate is noted, and so is one too long for bodies") {
   CHECK(has(noted("\"1/100000\""),
             "steps of 1e-05 s are 1e+05 per second, each of which takes its time; 1/240 is usual"));
   CHECK(noted("\"1/10000\"").empty());
-  // What turns too fast for such steps follows from them.
+  // A spin too fast for such steps is a consequence of them, and not noted again.
   const std::string spinning = notes_of(
       "{\"tweenfall\": 1, \"world\": {\"step\": 240}, \"nodes\": {\"top\": {\"body\": {\"shape\": {\"sphere\": "
       "{\"radius\": "

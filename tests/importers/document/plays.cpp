@@ -152,10 +152,10 @@ TEST_CASE("faults of inputs are told at their places") {
   CHECK(
       fault_says(input_faults(R"({"at": 1, "fade": {"play": "walk", "weight": 2}})"), "expected a weight from 0 to 1"));
   CHECK(fault_says(input_faults(R"({"at": -1, "stop": {"play": "walk"}})"), "i.json:2"));
-  // What is started is known from then on.
+  // A started play is known from then on.
   CHECK(input_faults(R"({"at": 1, "start": {"play": "w", "clip": "wave"}}, {"at": 2, "stop": {"play": "w"}})").empty());
   CHECK(fault_says(input_faults(R"({"at": 1, "start": {"play": "w", "clip": "wav"}})"), "there is no clip \"wav\""));
-  // What could not start is no further fault of what is asked of it.
+  // An input that could not start it makes its later inputs no further faults.
   const std::string twice = input_faults(
       R"({"at": 1, "start": {"play": "w", "clip": "wave", "from": 99}}, {"at": 2, "stop": {"play": "w"}})");
   CHECK(fault_says(twice, "its section reaches to 99 s"));

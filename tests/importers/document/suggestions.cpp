@@ -1,4 +1,4 @@
-// What errors say of what would be right: where a field belongs, what ours is called, what to write instead.
+// What errors suggest: where a field belongs, what our field is called, what to write instead.
 
 #include "importers/document/document_files.h"
 
@@ -9,7 +9,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// What is said of the first problem's field, after "unknown field".
+/// The suggestion for the first problem's field, after "unknown field".
 std::string hint(const std::string& text) {
   const std::string said = faults_of(text, "n.json", {});
   const std::string mark = "unknown field ";
@@ -60,7 +60,7 @@ TEST_CASE("fields of a body in its node and of a node in its body are sent to ea
   CHECK(in_node("\"shape\": {\"sphere\": {\"radius\": 1}}") == "\"shape\"; it belongs in \"body\"");
   const std::string body = "\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}, ";
   CHECK(in_node(body + "\"color\": \"#fff\"}") == "\"color\"; it belongs in a node of \"nodes\"");
-  // What is inside comes with what is outside.
+  // What is inside is suggested with what is outside.
   CHECK(in_node(body + "\"position\": [0, 1, 0]}") ==
         "\"position\"; it belongs in a node of \"nodes\" or in \"offset\"");
   CHECK(in_node("\"body\": {\"shape\": {\"sphere\": {\"radius\": 1, \"friction\": 1}}}") ==
@@ -222,7 +222,7 @@ TEST_CASE("what others call things, or write in another form, is answered by our
   answers("\"play\": \"c\"}", "say {\"clip\": \"c\"}, in a list");
   answers("\"world\": {\"plane\": true}}", "available: \"none\", \"xy\", \"xz\", \"yz\"");
   answers("\"clips\": {\"c\": {\"loop\": true}}}", "found true; say \"repeat\"");
-  // What has nothing in common with a name is not taken for it.
+  // Names that have nothing in common are not suggested.
   const std::string keyed = said("\"clips\": {\"c\": {\"tracks\": {\"a.b\": {\"0\": 1}}}}}");
   CHECK_MESSAGE(keyed.find("did you mean") == std::string::npos, keyed);
 }
@@ -252,7 +252,7 @@ TEST_CASE("a bare value in the place of an object is answered with the field tha
   CHECK(says(said("\"world\": {\"gravity\": 9.81}"), "found 9.81; say [0, -9.81, 0]"));
   CHECK(says(said("\"world\": {\"forces\": [{\"wind\": [1, 0, 0]}]}"),
              "found a list of 3; say {\"velocity\": [1, 0, 0]}"));
-  // What fits none says nothing; of many fields none is meant.
+  // If none fits, nothing is suggested; if many do, none is meant.
   CHECK(!says(body("{\"sphere\": -1}"), "say"));
   CHECK(!says(said("\"world\": 9.81"), "say"));
   CHECK(!says(said("\"nodes\": {\"a\": {\"body\": 3}}"), "say"));

@@ -86,7 +86,7 @@ TEST_CASE("the schema refuses every fault of shape and accepts all that loads") 
   for (const fs::path& file : documents_in("good")) put("good", file.filename().string(), text_of(file));
   put("good", "start.json", starting_document());
   for (const fs::path& file : documents_in("bad/shape")) put("bad", file.filename().string(), text_of(file));
-  // What is wrong with these is beyond shapes: order, cycles, references.
+  // The faults of these are beyond shapes: order, cycles, references.
   for (const fs::path& file : documents_in("bad/meaning"))
     put("good", "meaning_" + file.filename().string(), text_of(file));
   // Documents changed at random that still load.

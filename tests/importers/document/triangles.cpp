@@ -24,7 +24,7 @@ TEST_CASE("meshes, height fields and hulls of imported meshes are what the docum
   CHECK(field.spacing_x() == 0.5);
   CHECK(field.spacing_z() == 2);
   CHECK(std::get<HeightField>(solid("even")).spacing_z() == 3);
-  // The rock's node is half as large as its mesh: in the file's space it is, and in its own it is not.
+  // The rock's node is half as large as its mesh: in the file's space it is scaled, and in its own it is not.
   const auto width = [](const Solid& of) {
     const Bounds box = bounds({of}, {});
     return box.high.x() - box.low.x();

@@ -40,7 +40,7 @@ std::size_t node_named(const std::string& name) {
   return no_node;
 }
 
-/// Every node in the world, `clip` at `time` over the rest pose; null for the rest pose alone.
+/// Every node in the world, with `clip` at `time` over the rest pose; null: only the rest pose.
 std::vector<WorldMotion> world_at(const Clip* clip, double time) {
   static const Hierarchy hierarchy(stored().nodes);
   std::vector<Motion> local;
@@ -210,7 +210,7 @@ TEST_CASE("a foot that stands does not slide while the character walks forward")
     std::vector<Vec3> ball;
     for (double time = 0; time <= walk.duration; time += step)
       ball.push_back(place_of(world_at(&walk, time), side + "Toes"));
-    // The ball of the foot carries from the foot's lying flat until the toes leave, about half of each cycle.
+    // The ball of the foot carries from when the foot lies flat until the toes leave, about half of each cycle.
     const double height = place_of(world_at(nullptr, 0), side + "Toes").y();
     std::size_t stances = 0;
     for (const FootContact& contact : foot_contacts(ball, step, height, 0.002)) {
@@ -285,7 +285,7 @@ TEST_CASE("the wave lifts the right hand over the head, swings it out three time
     const auto world = world_at(&clip, time);
     const Vec3 hand = place_of(world, "RightHand");
     top = std::max(top, hand.y() - place_of(world, "Head").y());
-    // Sideways from the elbow, so that the arm's own going up and down does not count.
+    // Sideways from the elbow, so that the arm's own up and down does not count.
     const double out = place_of(world, "RightForearm").x() - hand.x();
     if (hand.y() > 1.5 && now > 0.1 && now > before && now > out) ++peaks;
     before = now;

@@ -155,7 +155,7 @@ TEST_CASE("FBX rotations in all orders, within pre- and post-rotation, about piv
                              moved(-pivot) * moved(s_off) * moved(s_pivot) * scale * moved(-s_pivot);
       CHECK(world_error(posed.world(0), motion_of(wanted)) < 1e-12);
     }
-    // The rates are the values' own.
+    // The rates are the values' own derivatives.
     const Curve<Vec3>& position = position_of(model, "n");
     const double h = 1e-4;
     for (const double time : {0.2, 0.6}) {

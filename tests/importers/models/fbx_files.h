@@ -9,14 +9,14 @@
 
 namespace tweenfall::test {
 
-/// A scene in the making: objects and connections, with numbers of its own.
+/// A scene being assembled: objects and connections, with their own numbers.
 class FbxText {
  public:
   int model(const std::string& name, const std::string& properties, int parent = 0) {
     return object("Model", "Model::" + name, "Mesh", "Properties70: { " + properties + " }", parent);
   }
 
-  /// An object that hangs on another; its number.
+  /// Adds an object that hangs on another. @returns its number.
   int object(const std::string& kind, const std::string& name, const std::string& form, const std::string& content,
              int above = -1) {
     const int id = ++last_;

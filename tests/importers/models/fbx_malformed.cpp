@@ -57,7 +57,7 @@ TEST_CASE("an FBX array that states more than its bytes can hold is refused at i
     }
   // Not packed, and cut off.
   CHECK(error_of(folder, binary(7400, 'd', 0x20000000u, 0, packed)).find("byte ") != std::string::npos);
-  // Packed bytes that are no stream, and a count within reason that they do not give.
+  // Packed bytes that are no stream, and a plausible count that they do not fill.
   CHECK(error_of(folder, binary(7400, 'i', 10, 1, "not zlib")).find("damaged") != std::string::npos);
 }
 

@@ -70,7 +70,7 @@ TEST_CASE("loading leaves the host's own children and their signals alone") {
   int status = 0;
   CHECK(::waitpid(own, &status, 0) == own);
   CHECK(WEXITSTATUS(status) == 7);
-  // A host that has its children waited for by the system.
+  // A host whose children are waited for by the system.
   const auto before = std::signal(SIGCHLD, SIG_IGN);
   CHECK(load_model(file).meshes.size() == 1);
   std::signal(SIGCHLD, before);

@@ -13,7 +13,7 @@ namespace {
 std::string outcome(const std::filesystem::path& file) {
   try {
     const Model model = load_model(file);
-    // What loads must also be fit for use.
+    // A file that loads must also be fit for use.
     for (const MeshInstance& instance : model.instances) {
       CHECK(instance.node < model.nodes.size());
       CHECK(instance.mesh < model.meshes.size());

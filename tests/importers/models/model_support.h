@@ -1,6 +1,6 @@
 #pragma once
 
-// A model's clips played through the animation module, to hold what was read against other programs' poses.
+// A model's clips played through the animation module, to check what was read against other programs' poses.
 
 #include "support.h"
 
@@ -99,7 +99,7 @@ inline Vec3 point_of(const nlohmann::json& list) {
   return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
 }
 
-/// All files of a folder whose names end so, in order: some, or none where that is absent, which is said loudly.
+/// All files of a folder whose names end like this, in order; empty, and reported loudly, if the folder is absent.
 inline std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
                                                    const std::vector<std::string>& endings) {
   std::vector<std::filesystem::path> all;

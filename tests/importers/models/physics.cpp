@@ -181,7 +181,7 @@ TEST_CASE("a body of each shape is read from glTF as it was written") {
     const std::string& name = model.nodes[body.node].name;
     CAPTURE(name);
     const ModelBody* same = body_named(again, name);
-    // What never moves stands where its collider is.
+    // A body that never moves is where its collider is.
     if (!same) same = body_named(again, name + " collider");
     REQUIRE(same);
     const Solid &one = body.body.shape.solid, &other = same->body.shape.solid;
@@ -280,7 +280,7 @@ TEST_CASE("a joint to the world is held the same whichever node names it") {
   const std::size_t at = text.find(lower);
   REQUIRE(at != std::string::npos);
   text.erase(at, text.find("{\"name\":\"pivot\"") - at);
-  // Only the upper ball is left, and the joint's other end stands in the world.
+  // Only the upper ball is left, and the joint's other end is in the world.
   text.replace(text.find("\"children\":[2]"), 14, "\"children\":[1]");
   text.replace(text.find("\"connectedNode\":3"), 17, "\"connectedNode\":2");
   const Model model = read_text(text);

@@ -1,4 +1,4 @@
-// What is done to whole poses, done to figures that others made.
+// Operations on whole poses, applied to figures that others made.
 
 #include <tweenfall/anim/mirror.h>
 #include <tweenfall/anim/retarget.h>
@@ -12,7 +12,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// A figure and one of its clips; nothing where the models are not there.
+/// A figure and one of its clips; empty if the models are absent.
 struct Dancer {
   std::shared_ptr<const Hierarchy> nodes;
   std::unique_ptr<Animation> animation;
@@ -57,7 +57,7 @@ Vec3 mirrored_point(const Vec3& v) {
   return {-v[0], v[1], v[2]};
 }
 
-// How the joints of the walk are called in a robot.
+// The names of the walk's joints in a robot.
 const std::vector<RetargetPair> walk_to_robot{
     {"Hips", "Hips"},           {"Spine", "Abdomen"},           {"Spine1", "Torso#2"},
     {"Neck1", "Neck"},          {"LeftArm", "UpperArm.L"},      {"LeftForeArm", "LowerArm.L"},

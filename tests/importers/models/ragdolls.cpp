@@ -24,7 +24,7 @@ struct SkinnedFigure {
   std::vector<WorldMotion> world;
 };
 
-/// All skinned meshes of a model; none where it has none.
+/// All skinned meshes of a model; may be empty.
 std::optional<SkinnedFigure> figure_of(const Model& model) {
   SkinnedFigure figure{Hierarchy(model.nodes), {}, {}, {}};
   for (const MeshInstance& instance : model.instances)

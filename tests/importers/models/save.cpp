@@ -38,7 +38,7 @@ double difference(const Model& a, const Model& b) {
     one.play(clip);
     other.play(clip);
     for (int i = 0; i <= 12; ++i) {
-      // Off the keys, where a jump may fall a rounding of the time earlier or later.
+      // Off the keys, where a jump may fall slightly earlier or later by rounding of the time.
       const double time = (0.003 + 0.0829 * i) * a.clips[clip].duration;
       one.at(time);
       other.at(time);

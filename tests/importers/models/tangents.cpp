@@ -1,4 +1,5 @@
-// Tangents of meshes, from files and back: along growing texture coordinates, and which way lies across them.
+// Tangents of meshes, from files and back: along growing texture coordinates, and which way the second direction
+// points.
 
 #include "importers/models/fbx_files.h"
 
@@ -109,7 +110,7 @@ TEST_CASE("tangents and how morph targets bend them are saved in glTF and read b
   for (std::size_t i = 0; i < 3; ++i) CHECK(near(back.tangents[i], mesh.tangents[i], 1e-7));
   CHECK(back.morphs.at(0).tangent_offsets == bent);
 
-  // A number of the second tangent, as the file holds it, becomes none.
+  // A number of the second tangent, as the file holds it, becomes NaN.
   std::string bytes = text_of(folder / "leaf.glb");
   const float numbers[2] = {0.6F, 0.8F}, none = std::numeric_limits<float>::quiet_NaN();
   const std::size_t place = bytes.find(std::string(reinterpret_cast<const char*>(numbers), sizeof numbers));
@@ -127,7 +128,7 @@ TEST_CASE("tangents of public models lie along their textures") {
     MESSAGE("SKIPPED: tangents of public models: " << models_folder() << " is not there");
     return;
   }
-  // Not AnimatedMorphCube: it has no texture, and tangents of its file stand on its sides.
+  // Not AnimatedMorphCube: it has no texture, and the tangents of its file are perpendicular to its sides.
   std::size_t meshes = 0;
   for (const char* name : {"gltf/AnimatedCube.gltf", "fbx/animation-rotation-pivot.fbx", "fbx/animation-layer.fbx"})
     for (const Mesh& mesh : load_model(models_folder() / name).meshes) {

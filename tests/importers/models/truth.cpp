@@ -142,7 +142,7 @@ class Comparison {
   bool below_root_;
 };
 
-/// What another program says of a model; each that is there has one.
+/// What another program says about a model; each model that is there has one.
 nlohmann::json truth_of(const std::filesystem::path& file) {
   const auto path = models_folder() / "truth" / (file.filename().string() + ".json");
   REQUIRE_MESSAGE(std::filesystem::exists(path), "a model without a truth: " << file.string());

@@ -17,7 +17,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// Of the element after the title of `name`: its first path, as points in order, and where lines begin.
+/// For the element after the title of `name`: its first path, as points in order, and where lines begin.
 std::vector<Vec2> drawn_points(const std::string& svg, const std::string& name, std::size_t* lines = nullptr) {
   const std::size_t title = svg.find("<title>" + name + "</title>");
   REQUIRE(title != std::string::npos);
@@ -113,7 +113,7 @@ TEST_CASE("wheels are drawn where they are, in the moving picture and as nodes o
   std::filesystem::remove(file);
   const auto wheel = std::ranges::find(model.nodes, std::string("car/front left"), &Node::name);
   REQUIRE(wheel != model.nodes.end());
-  // 1.3 m before the middle, 0.75 m to its left, and as far below as the springs bear 1000 kg
+  // 1.3 m in front of the middle, 0.75 m to its left, and as low as the springs carry 1000 kg
   CHECK(near(wheel->rest.position, Vec3(1.3, 0.518 - 0.3, -0.75), 2e-2));
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("the moving picture's keyframes follow a parabola within the error it 
   REQUIRE(shares.size() > 5);
   CHECK(shares.front() == 0);
   CHECK(shares.back() == 1);
-  // The horizontal way is one meter a second, which gives the scale.
+  // The horizontal speed is one meter per second, which gives the scale.
   const double scale = (x[x.size() - 2] - x.front()) / 2;
   REQUIRE(scale > 10);
   std::size_t key = 0;
@@ -92,7 +92,7 @@ TEST_CASE("the moving picture's keyframes follow a parabola within the error it 
     while (key + 2 < shares.size() && shares[key + 1] * length < t) ++key;
     const double u = std::clamp((t / length - shares[key]) / (shares[key + 1] - shares[key]), 0.0, 1.0);
     const double height = y.front() - (y[key] + u * (y[key + 1] - y[key]));
-    // 0.4 px stated, 0.05 px of rounding at either end, and of the scale.
+    // 0.4 px as stated, 0.05 px of rounding at either end, and of the scale.
     CHECK(std::abs(height - scale * (10 * t - 4.905 * t * t)) < 0.4 + 0.3);
   }
 }
@@ -165,7 +165,7 @@ TEST_CASE("a page is one file that holds its data and asks for nothing") {
   CHECK(data["nodes"].size() == 8);
   CHECK(data["lanes"].size() == 4);
   CHECK(data["nodes"][3]["owner"] == nlohmann::json::parse(R"([[0, "keyed"], [60, "driven"], [96, "free"]])"));
-  CHECK(data["nodes"][0]["matrices"].get<std::string>().size() == 64);  // what stands still has one matrix: 48 bytes
+  CHECK(data["nodes"][0]["matrices"].get<std::string>().size() == 64);  // a node at rest has one matrix: 48 bytes
 }
 
 TEST_CASE("keys of a page have the eases that the document says, and a word of ours where it says tangents") {

@@ -40,7 +40,7 @@ StageDescription stage_of(Track track, double duration) {
   return stage;
 }
 
-/// Whether every number of a picture is one, and none is written in a way that only huge ones need.
+/// Whether every number of a picture is finite, and none is written in a way that only huge ones need.
 bool is_sound_picture(const std::string& svg) {
   return svg.ends_with("</svg>\n") && svg.find("nan") == std::string::npos && svg.find("inf") == std::string::npos &&
          svg.size() < 300'000;
@@ -104,7 +104,7 @@ TEST_CASE("a rotation about an axis is plotted as its angle in degrees, which do
   REQUIRE(count(svg, "class=\"curve\"") == 1);  // the angle alone
   const std::size_t at = svg.find(" d=\"", svg.find("class=\"curve\"")) + 4;
   const std::string line = svg.substr(at, svg.find('"', at) - at);
-  // A steady turn is one straight line; one that wrapped would have corners.
+  // A steady turn is one straight line; a wrapped one would have corners.
   CHECK(count(line, "L") <= 10);
   CHECK(count(line, "M") == 1);
   double before = 1e9;
@@ -237,7 +237,7 @@ TEST_CASE(
   REQUIRE(label != std::string::npos);
   CHECK(label < curve);
   CHECK(svg.find("paint-order") == std::string::npos);
-  // The curve runs along the lowest rows, where the label would stand first.
+  // The curve runs along the lowest rows, where the label would be placed first.
   const std::size_t y = svg.find("y=\"", label) + 3;
   const std::size_t frame = svg.find("height=\"150\"");
   REQUIRE(frame != std::string::npos);
@@ -257,7 +257,7 @@ TEST_CASE("labels stand beside the handles of keys") {
     REQUIRE(label != std::string::npos);
     return std::stod(svg.substr(svg.find("y=\"", label) + 3, 8));
   };
-  // Neither curve comes near, but the handle runs through where the label would stand.
+  // Neither curve comes near, but the handle runs through where the label would be.
   CHECK(baseline_of(R"(, "out": {"rate": 0, "weight": 0.3333})") <= baseline_of(R"(, "ease": "linear")") - 11);
 }
 

@@ -12,7 +12,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-/// Names that break what does not expect them.
+/// Names that break code that does not expect them.
 const std::vector<std::string> hostile_names{"]]>",
                                              "</script><script>",
                                              "a & b < c > d \" e ' f",
@@ -118,7 +118,7 @@ TEST_CASE("pictures, pages and files stay well-formed whatever things are called
       CHECK(svg.find("]]>") == std::string::npos);
       CHECK(svg.find("<script") == std::string::npos);
     }
-    // The reader refuses what is not UTF-8.
+    // The reader refuses text that is not UTF-8.
     CHECK(nlohmann::json::accept(recording_json(recording)));
     const std::string table = recording_csv(recording), page = recording_html(recording, stage);
     CHECK(utf8_text(table) == table);

@@ -1,4 +1,4 @@
-// Files that are there whole or not at all.
+// Files that are there completely or not at all.
 
 #include "importers/models/model_support.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-// The scenarios of the hand-off that contacts and overlap have a part in, each with the bound that it states.
+// The scenarios of the hand-off that involve contacts and overlap, each with the bound that it states.
 
 namespace tweenfall::contact_scenarios {
 
@@ -207,7 +207,7 @@ StageDescription domino_run(double degrees, double seconds) {
     nodes += ", \"domino" + std::to_string(i + 1) + "\": {\"position\": [" + in_text(pitch * i) +
              R"(, 0.05, 0], "body": {"shape": {"box": {"size": [0.02, 0.1, 0.05]}}}})";
   StageDescription stage = described(nodes, R"("push": {"tracks": {"finger.position": [[0, [0, 0, 0]]]}})", "");
-  // Where a finger of that radius, at that height, stands when it touches the tilted back.
+  // Where a finger of that radius, at that height, is when it touches the tilted back.
   constexpr double radius = 0.005, at = 0.09;
   const auto finger = [](double angle) {
     const double foot = thickness / 2 - thickness * std::cos(angle), up = thickness * std::sin(angle);
@@ -304,7 +304,7 @@ TEST_CASE(
     "scenario 11: all dominoes fall one after the other in a steady wave, in the same bits from a save at the "
     "seventh") {
   StageDescription fine = domino_run(12.4, 0.2);
-  fine.step = 1.0 / 960;  // contacts are told at the ends of steps
+  fine.step = 1.0 / 960;  // contacts are reported at the ends of steps
   Stage stage(fine), again(fine), loaded(fine);
   std::vector<std::byte> saved;
   again.on_contact([&](const StageEvent&) {
@@ -344,7 +344,7 @@ TEST_CASE("scenario 13: a box that rides a turntable stays where it is, and slid
     Stage run(stage);
     run.advance_to(6);
     const double radius = std::hypot(place(run, "box").x(), place(run, "box").z());
-    // Friction that held the box by the velocity of the step's end would let it drift out by this factor. A thousandth
+    // Friction that held the box by the velocity at the step's end would let it drift out by this factor. A thousandth
     // of the radius, at 1/240 s, is not reached.
     const double drift = std::exp(step * 6 / 2) - 1;
     MESSAGE("steps of " << step << " s: from 1 m to " << radius << " m, where by tangents it would be " << 1 + drift

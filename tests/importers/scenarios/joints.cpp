@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-// The scenarios of the hand-off that joints have a part in, each with the numbers that it states.
+// The scenarios of the hand-off that involve joints, each with the numbers that it states.
 
 namespace tweenfall::joint_scenarios {
 
@@ -31,7 +31,7 @@ Vec3 place(const Stage& stage, const std::string& node) {
   return stage.world(stage.node(node)).motion.pose.position;
 }
 
-/// Where a body that is held and turned so accelerates to: two links of constant rates.
+/// The acceleration of a body that is held and turned like this: two links of constant rates.
 Vec3 acceleration_on_arm(double first, double both) {
   const auto along = [](double angle) { return Vec3(std::cos(angle), std::sin(angle), 0); };
   return -1.2 * 1.2 * 0.5 * along(first) - 0.8 * 0.8 * 0.55 * along(both);
@@ -60,7 +60,7 @@ TEST_CASE("scenario 4: a driven door on its hinge stalls against a box with the 
   stage.advance_to(4);
   const Vec3 before = stage.reaction(stage.node("wall"));
   stage.advance_to(5);
-  // What the wall's friction bears of the box's weight is not the door's.
+  // The part of the box's weight that the wall's friction carries does not load the door.
   const Vec3 borne = stage.reaction(stage.node("wall")) - before;
   const double force = std::hypot(borne.x(), borne.z());
   const double angle = stage.joint("pin")->position[0];
@@ -96,11 +96,11 @@ TEST_CASE("scenario 6: the weld of a box on an arm bears m (a - g), and lets it 
     const double late = (free.linear - Vec3(0.027792, 0.309138, 0)).norm();
     MESSAGE("steps of " << step << " s: force within " << (grip->force - expected).norm() / expected.norm()
                         << ", velocity within " << late << " m/s");
-    // As exact as a body that is held is: half a step's acceleration at worst.
+    // As exact as a held body can be: half a step's acceleration at worst.
     CHECK(late < 1.2 * step / 2);
     CHECK(std::abs(free.angular.z() + 0.8) < 1e-3);
   }
-  // A box that is the arm's own leaves with the exact derivative.
+  // A box that belongs to the arm leaves with the exact derivative.
   Stage exact = staged("arm_of_one_piece");
   exact.advance_to(0.5);
   REQUIRE(exact.handoffs().size() == 1);
@@ -206,7 +206,7 @@ TEST_CASE(
     "scenario 20: the ball on a trolley's cable takes the trolley's work, and strikes a wall that slept till then") {
   Stage stage = sample("wrecking_ball");
   const NodeId ball = stage.node("ball"), trolley = stage.node("trolley");
-  // A whole number of steps: in between places are shares of a step's way, and forces those of the whole step.
+  // A whole number of steps: in between, positions are interpolated, and forces are those of the whole step.
   stage.advance_to(237.0 / 240);
   const Vec3 start = place(stage, "ball");
   std::vector<Vec3> asleep;

@@ -36,7 +36,7 @@ TEST_CASE("scenario 15: a keyed press keeps to its path, tells the overlap, and 
   CHECK(place(run, "cube").allFinite());
   const Vec3 press_impulse = run.reaction(run.node("press")), floor_impulse = run.reaction(run.node("floor"));
   run.advance_to(2.5);
-  // What the press takes, the floor takes, and the cube's weight.
+  // The floor takes what the press takes, plus the cube's weight.
   const double up = (run.reaction(run.node("press")) - press_impulse).y();
   const double down = (run.reaction(run.node("floor")) - floor_impulse).y();
   CHECK(std::abs(up + down + 0.5 * 20 * g) < 1e-6 * up);
@@ -74,7 +74,7 @@ TEST_CASE("scenario 15: a driven press of 500 N stops, says that it is saturated
 
 namespace {
 
-/// A cube that a clip takes into the floor at 0.5 m/s, `depth` deep by 2 s, when it is let go.
+/// A cube that a clip moves into the floor at 0.5 m/s, `depth` deep by 2 s, when it is let go.
 StageDescription sunk(double depth, const std::string& policy) {
   const double from = 0.25 - depth + 0.5;
   return described(floor_node + ", \"cube\": {\"position\": [0, " + in_text(from) +
@@ -117,10 +117,10 @@ TEST_CASE("scenario 21: what ignores its overlap falls freely through the floor,
     run.advance_to(2.5);
     CHECK(std::abs(place(run, "cube").y() - (0.25 - depth - g / 2 * 0.25)) < 1e-9);
     run.advance_to(5);
-    // The plane has no other side: all the way down it is in it. The shelf below holds it.
+    // The plane has no other side: all the way down it is inside. The shelf below holds it.
     CHECK(std::abs(place(run, "cube").y() + 2.65) < 1e-3);
   }
-  // Out of what has two sides it meets it again.
+  // Once out of a body with two sides, it meets it again.
   StageDescription through = sunk(0.05, "ignore");
   through.nodes[0].rest.position = Vec3(0, -0.5, 0);
   through.nodes[0].body->shape = {Box{{2, 0.5, 2}}};

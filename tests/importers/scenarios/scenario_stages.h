@@ -1,6 +1,6 @@
 #pragma once
 
-// What the scenarios of the hand-off share: documents made of parts, and what is asked of a stage.
+// What the scenarios of the hand-off share: documents made of parts, and queries to a stage.
 
 #include "importers/document/document_files.h"
 

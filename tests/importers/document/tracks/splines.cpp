@@ -122,7 +122,7 @@ TEST_CASE("modifiers change vectors component by component, or all alike") {
       R"({"axis": "x", "keys": [[0, 0, "linear"], [1, 90]], "modifiers": [{"polynomial": {"coefficients": [10], "add": true}}]})");
   CHECK(2 * std::atan2(nod.value(0.5).x(), nod.value(0.5).w()) == doctest::Approx(55 * degree).epsilon(1e-14));
   CHECK(near(nod.rate(0.5), Vec3(90 * degree, 0, 0), 1e-14));
-  // Of three angles the first alone: held at 30 degrees while the last goes on.
+  // Of three angles only the first: held at 30 degrees while the last goes on.
   const Curve<Quat> held = curve_of<Quat>(
       "a.rotation",
       R"({"keys": [[0, {"euler": [0, 0, 0]}, "linear"], [1, {"euler": [90, 0, 40]}]], "modifiers": {"x": [{"limits": {"high": 30}}]}})");
