@@ -31,8 +31,8 @@ class ConvexHull {
     std::uint32_t left, right;  ///< faces; the left one runs counter-clockwise along from -> to
   };
 
-  /// @throws std::invalid_argument for fewer than four points, one that is not finite, points that all lie in one
-  /// plane,
+  /// @throws std::invalid_argument for fewer than four points, one that is not finite,
+  ///         points that all lie in one plane,
   ///         or more than `most_vertices` that remain as vertices
   explicit ConvexHull(std::span<const Vec3> points);
   /// The hull of the mesh's vertices.

@@ -139,7 +139,7 @@ struct JointFrames {
 /// @param a, b   poses of the two nodes; the identity for the world
 /// @param point  world, m
 /// @param axis   world, any length; not zero
-/// world: the y axis points as close to it as possible; zero: anywhere
+/// @param second  world: the y axis points as close to it as possible; zero: anywhere
 /// @throws std::invalid_argument for an axis without length or numbers that are not finite
 [[nodiscard]] JointFrames joint_frames(const Pose& a, const Pose& b, const Vec3& point,
                                        const Vec3& axis = Vec3(1, 0, 0), const Vec3& second = Vec3(0, 0, 0));

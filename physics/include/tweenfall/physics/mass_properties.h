@@ -85,8 +85,8 @@ struct WeighedProperties {
 
 /// A solid of that density. An even one is in closed form, without error; otherwise the solid is cut into images of
 /// cubes, and those into halves across the direction with the greatest error, until the error is within the tolerance.
-/// The reported errors are sums of differences between two rules, which for a smooth density are far above the true
-/// ones. Source: the rule of seven points that Kronrod adds to Gauss's of three (Laurie, "Calculation of Gauss-Kronrod
+/// The reported errors are sums of differences between two rules: for a smooth density far above the true ones.
+/// Source: the rule of seven points that Kronrod adds to Gauss's of three (Laurie, "Calculation of Gauss-Kronrod
 /// quadrature rules", 1997), adapted as in Berntsen, Espelid, Genz, "An adaptive algorithm for the approximate
 /// calculation of multiple integrals", 1991.
 /// @throws std::invalid_argument for scenery, a density that is negative or not finite, naming the place, and a

@@ -48,9 +48,9 @@ struct BodySettings {
   Combine friction_combine = Combine::usual;
   Combine restitution_combine = Combine::usual;
   /// Resistance to rolling, as a length: the torque against the relative spin of a pair is at most this times the force
-  /// that presses the two together, m; a pair takes the larger. A wheel of radius r with moment k m r^2 loses c g / (r
-  /// (1
-  /// + k)) of its speed in a second, and stays on a slope of at most c / r.
+  /// that presses the two together, m; a pair takes the larger. A wheel of radius r with moment k m r^2
+  /// loses c g / (r (1 + k)) of its speed in a second,
+  /// and stays on a slope of at most c / r.
   double rolling_friction = 0;
   bool sensor = false;         ///< reports what overlaps it, but neither pushes nor is pushed
   double linear_damping = 0;   ///< 1/s: the share of a velocity that remains after t seconds is exp(-damping t)

@@ -3,11 +3,11 @@
 /// Questions about where shapes and bodies are: rays, moving shapes, overlaps, distances.
 ///
 /// Nothing here changes a world, and anything added, moved or removed since its last step counts at once: bodies are
-/// where `World::motion` says. Several threads may query the same world at a time. A solid is closed: its surface
-/// belongs to it. A plane is the half space behind it. A
-/// triangle mesh or height field is a surface: rays and moving shapes hit its front only, distances and overlaps are
-/// those of the surface, from either side. A surface normal points out of the solid that
-/// was hit.
+/// where `World::motion` says. Several threads may query the same world at a time.
+/// A solid is closed: its surface belongs to it. A plane is the half space behind it. A triangle mesh or height field
+/// is a surface: rays and moving shapes hit its front only,
+/// distances and overlaps are those of the surface, from either side.
+/// A surface normal points out of the solid that was hit.
 
 #include <tweenfall/physics/world.h>
 

@@ -25,9 +25,9 @@ class TriangleMesh {
  public:
   static constexpr std::size_t most_triangles = 20'000'000;
 
-  /// @throws std::invalid_argument for a vertex that is not finite or beyond 1e30 m, a triangle that names a vertex
-  /// that
-  ///         does not exist, a mesh without any triangle that has area, or more than `most_triangles`
+  /// @throws std::invalid_argument for a vertex that is not finite or beyond 1e30 m, a triangle that names
+  ///         a vertex that does not exist,
+  ///         a mesh without any triangle that has area, or more than `most_triangles`
   explicit TriangleMesh(const SurfaceMesh& mesh);
   // Moving copies, so that no mesh is ever without its data.
   TriangleMesh(const TriangleMesh&) noexcept = default;

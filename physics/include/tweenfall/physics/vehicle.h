@@ -73,9 +73,9 @@ class Vehicle {
 
   /// Applies what the wheels do in the next step of `dt` seconds. A strut is a spring and a damper from the mount to
   /// the hub; a tire grips by P = load * sin(atan(sharpness * slip)), times its grips along and across by the ellipse,
-  /// and never by more than what ends its slip within the step: so it can also stand still. Sources: Pacejka, Tire and
-  /// Vehicle Dynamics, 2012, 3.2 (slip of the tread, friction circle) and 4.3 (the magic formula, here with C = 1, so
-  /// that a locked wheel slides by Coulomb's law).
+  /// and never by more than what ends its slip within the step: so it can also stand still.
+  /// Sources: Pacejka, Tire and Vehicle Dynamics, 2012, 3.2 (slip of the tread, friction circle) and 4.3 (the magic
+  /// formula, here with C = 1, so that a locked wheel slides by Coulomb's law).
   /// @throws std::invalid_argument for a chassis that does not exist, or a dt that is not positive and finite
   /// @throws NotFinite when a wheel is pressed beyond 1e30 N
   void act(World& world, double dt);

@@ -176,9 +176,9 @@ void solve_normals(Gathering& island, double enough, int& left) {
 
 /// All collisions at once, as a linear complementarity problem: no impulse pulls, no surfaces close, and where they
 /// part there is no impulse. It alternates with friction, which is solved for given impulses along the normals, and
-/// these again for the given friction. Sources: Baraff, Fast Contact Force Computation for Nonpenetrating Rigid Bodies,
-/// SIGGRAPH 1994; Kaufman and others, Staggered Projections for Frictional Contact in Multibody Systems, SIGGRAPH Asia
-/// 2008.
+/// these again for the given friction.
+/// Sources: Baraff, Fast Contact Force Computation for Nonpenetrating Rigid Bodies, SIGGRAPH 1994; Kaufman and others,
+/// Staggered Projections for Frictional Contact in Multibody Systems, SIGGRAPH Asia 2008.
 void lcp(Gathering& island) {
   int left = most_sweeps;
   const double enough = near_enough(island);

@@ -2,7 +2,7 @@
 
 /// The path of one body: where its animation wants it, at any time, with exact twist.
 ///
-/// world(t) = anchor * clip(clock(t)), plus the offset that is still settling.
+///     world(t) = anchor * clip(clock(t)), plus the offset that is still settling.
 ///
 /// A path has no history: it can be evaluated at any time in any order.
 

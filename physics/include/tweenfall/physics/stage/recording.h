@@ -104,8 +104,8 @@ struct Recording {
 /// Runs `stage` from its current time to `until`, taking a frame at the start, every 1/fps after it, and at `until`.
 /// @param details  whether contacts, islands, boxes and sleep are recorded too; if they take more than `most_bytes`,
 /// or 256 MiB, all of them are left out
-/// @throws std::invalid_argument, saying how much it would be, for more than 20 million steps or `most_bytes` of
-/// frames,
+/// @throws std::invalid_argument, saying how much it would be, for more than 20 million steps or `most_bytes`
+///         of frames,
 ///         and as soon as there are a million events; NodeNotFinite, as the stage does
 [[nodiscard]] Recording record(Stage& stage, double until, double fps, double most_bytes = 1024.0 * 1024 * 1024,
                                bool details = false);
