@@ -232,8 +232,8 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
   if (islands::is_wedged(island.contacts, bodies,
                          step::soft_contacts(settings.push_out_speed, dt, effort.sub_steps, parts_).deep()))
     return std::nullopt;
-  // A turning body keeps what is left of an uneven push, since it lets go of what it touches; and it would move bodies
-  // that are pushed out sideways.
+  // A turning body keeps the rest of an uneven push, since it lets go of what it touches; the same rest would move
+  // sideways what is being pushed out.
   const bool is_turning = effort.single && fastest * dt > turns;
   if (is_turning || is_pushed_out) effort.softening = effort.relaxing = 3 * settings.iterations;
   if (is_turning && !is_pushed_out && fastest * dt <= followable_of_small * sub_steps_of_turning)
