@@ -213,8 +213,8 @@ TEST_CASE("all that is wrong with a map between skeletons is listed") {
   CHECK_THROWS_WITH_AS(
       Retarget(source, target, low),
       "poses cannot be transferred to the other skeleton:\n"
-      "  the hips \"Armature\" stand 0.1 above the ground, and those of the source 0; where not both are "
-      "above it a scale must be given",
+      "  the hips \"Armature\" stand 0.1 above the ground, and those of the source 0; unless both are above "
+      "it, a scale must be given",
       std::invalid_argument);
   CHECK_THROWS_AS(Retarget(source, target, to_dwarf, {.scale = -1}), std::invalid_argument);
   CHECK_THROWS_AS(Retarget(source, target, to_dwarf, {.turn = Quat(0, 0, 0, 0)}), std::invalid_argument);

@@ -137,7 +137,7 @@ TEST_CASE("keys so far from each other that no number is the way between them ar
       const Ran ran = folder.run(with_file(verb.arguments, file));
       CHECK(ran.code == 1);
       CHECK_MESSAGE(
-          ran.err.find(".json:1:52: error: key 1 (time 1 s, value 1e+308) is further from the key before it") !=
+          ran.err.find(".json:1:52: error: key 1 (time 1 s, value 1e+308) is too far from the key before it") !=
               std::string::npos,
           ran.err);
       CHECK(folder.names().empty());

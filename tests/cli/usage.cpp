@@ -108,7 +108,7 @@ TEST_CASE("wrong usage ends with 2, says what was probably meant, and prints no 
            {"run ball.json -o ball.json", "the file that is read"},
            {"plot ball.json -o ball.png", ".svg"},
            {"view ball.json -o ball.svg", ".html"},
-           {"import ball.json -o other.json", "no model"},
+           {"import ball.json -o other.json", "not a model"},
            {"sample ball.json --at 0 other.json", "other.json"},
            {"completion fihs", "did you mean fish?"},
        }) {

@@ -155,7 +155,7 @@ TEST_CASE("what is wrong with bytes is said") {
   const auto says = [](const std::vector<std::byte>& bad, const char* what) {
     CHECK_THROWS_WITH_AS((void)CrowdClip::from_bytes(bad), doctest::Contains(what), std::invalid_argument);
   };
-  says({}, "fewer than stand before any");
+  says({}, "fewer than a header has");
   std::vector<std::byte> other = bytes;
   other[0] = std::byte{'T'};
   says(other, "do not begin with \"tweenfall crowd\"");

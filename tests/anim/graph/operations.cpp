@@ -259,7 +259,7 @@ TEST_CASE("an operation that asks for what is not there is refused with its plac
   mirror.pairs.clear();
   CHECK(faults_of(mirror).empty());  // by their usual names
   mirror.figure = "spine";
-  CHECK(faults_of(mirror).find("no names of sides") != std::string::npos);
+  CHECK(faults_of(mirror).find("do not tell sides") != std::string::npos);
   CHECK(faults_of(on_the_spot(1., "ball")) == "/poses/changed/root_motion/onto: \"ball\" does not carry \"spine\"\n");
   const GraphDescription circle = {
       .poses = {{"a", LookAtPose{.base = "b", .joints = {{"head"}}}}, {"b", MirrorPose{.base = "a"}}}};
