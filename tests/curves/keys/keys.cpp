@@ -431,9 +431,10 @@ TEST_CASE("tangents are aligned, mirrored and straight as they say") {
       keyed_curve<double>({{0, 0, Ease::linear()}, {1, 2, Ease::smooth_clamped(), {}, tangent(K::aligned)}, {3, 3}});
   CHECK(beside_line.rate(1) == doctest::Approx(2));
   keys[1].out = tangent(K::mirrored);
-  CHECK_THROWS_WITH_AS((void)keyed_curve<double>(keys),
-                       doctest::Contains("key 1 (time 1 s, value 2) has two tangents that each take the slope of the other"),
-                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(
+      (void)keyed_curve<double>(keys),
+      doctest::Contains("key 1 (time 1 s, value 2) has two tangents that each take the slope of the other"),
+      std::invalid_argument);
   Key<Quat> turned{0, exp_map({0, 0, 0})};
   turned.out = Tangent<Quat>{K::plateau, Vec3::Zero()};
   CHECK_THROWS_WITH_AS((void)keyed_curve<Quat>({turned, {1, exp_map({0, 0, 1})}}),

@@ -89,8 +89,7 @@ TEST_CASE("a helper that is missing, says nothing, or says what is no model is a
                              "#!/bin/sh\nkill -SEGV $$\n", "#!/bin/sh\nyes | head -c 900000000\n"}) {
     const OtherHelper broken(folder.file("helper", script));
     const std::string error = error_of(file);
-    CHECK_MESSAGE((error.find("crashes") != std::string::npos || error.find("too large") != std::string::npos),
-                  error);
+    CHECK_MESSAGE((error.find("crashes") != std::string::npos || error.find("too large") != std::string::npos), error);
   }
 }
 
