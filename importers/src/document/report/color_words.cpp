@@ -86,6 +86,7 @@ std::vector<Numeral> numbers_in(std::string_view text) {
 // Red, green and blue to 255, how opaque to 1.
 std::vector<double> parts_of_rgb(const std::vector<Numeral>& numbers) {
   std::vector<double> parts;
+  parts.reserve(numbers.size());
   for (const auto& [number, percent] : numbers)
     parts.push_back(percent ? number * (parts.size() < 3 ? 2.55 : 0.01) : number);
   // What is 1 there is a 255th.
