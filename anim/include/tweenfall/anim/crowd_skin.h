@@ -53,7 +53,6 @@ class CrowdMesh {
   CrowdMesh(const Mesh& mesh, std::size_t joints);
 
   [[nodiscard]] std::size_t vertices() const noexcept { return vertices_; }
-  [[nodiscard]] bool has_normals() const noexcept { return has_normals_; }
 
   /// Positions of all vertices, and their normals: of unit length, transformed by the cofactors of the blended matrix,
   /// so that they are right under non-uniform scales too; zero where the matrix is singular.

@@ -27,23 +27,20 @@ const Form* strength_form(FormStore& store, const ValueForms& values) {
 }
 
 void read_strength(const json::Value& value, ForceDescription& force, Building& building) {
-  if (value.is(json::Value::Kind::number)) force.strength = Strength(value.number());
-  if (value.is(json::Value::Kind::object)) {
-    const json::Value text = usable(value, "expression");
-    if (!text) return;
-    try {
+  const json::Value text = value.is(json::Value::Kind::object) ? usable(value, "expression") : json::Value();
+  try {
+    if (value.is(json::Value::Kind::number)) {
+      force.strength = Strength(value.number());
+    } else if (text) {
       force.strength = Strength::formula(std::string(text.text()));
-    } catch (const ExpressionError& fault) {
-      add_fault_of_expression(text, fault, building.problems);
+    } else if (value.is(json::Value::Kind::list)) {
+      if (const auto keys = read_play_keys(value, building.fps, {}, 0, building.problems))
+        force.strength = Strength(*keys);
     }
-  } else if (value.is(json::Value::Kind::list)) {
-    const std::optional<Curve<double>> keys = read_play_keys(value, building.fps, {}, 0, building.problems);
-    if (!keys) return;
-    try {
-      force.strength = Strength(*keys);
-    } catch (const std::invalid_argument& fault) {
-      building.problems.add(value, fault.what());
-    }
+  } catch (const ExpressionError& fault) {
+    add_fault_of_expression(text, fault, building.problems);
+  } catch (const std::invalid_argument& fault) {
+    building.problems.add(value, fault.what());
   }
 }
 
