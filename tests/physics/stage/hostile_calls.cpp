@@ -83,6 +83,27 @@ TEST_CASE("poses that are none, and times that are none, are refused") {
   CHECK_THROWS_AS(Stage{description}, std::invalid_argument);
 }
 
+TEST_CASE(
+    "a node so far away that what turns it would make it faster than any number is refused, and nearer has a "
+    "velocity") {
+  StageDescription description = falling_ball();
+  description.nodes[0].body->twist.angular = Vec3(2000, -2000, 40);
+  Stage stage(description);
+  for (const Pose& rest :
+       {Pose{.position = {1, -1e308, 1}}, Pose{.position = {0, 1e31, 0}}, Pose{.scale = {1, 1e300, 1}}}) {
+    const NodeDescription far{.name = "far", .parent = 0, .rest = rest};
+    CHECK_THROWS_WITH_AS((void)stage.add(far), doctest::Contains("\"far\" needs numbers of at most 1e30"),
+                         std::invalid_argument);
+    StageDescription with = description;
+    with.nodes.push_back(far);
+    CHECK_THROWS_WITH_AS(Stage{with}, doctest::Contains("\"far\" needs numbers of at most 1e30"),
+                         std::invalid_argument);
+  }
+  const NodeId near = stage.add({.name = "near", .parent = 0, .rest = {.position = {1, -1e30, 1}}});
+  stage.advance(0.05);
+  CHECK(stage.twist(near).linear.allFinite());
+}
+
 TEST_CASE("a play asked for a loop of too many events is refused at once, and goes on as it was") {
   StageDescription description = falling_ball();
   Clip clip{.name = "beat", .duration = 1, .loop = {LoopMode::repeat, 0}};

@@ -181,6 +181,9 @@ Node checked_node(const NodeDescription& node) {
   if (!rest.position.allFinite() || !rest.scale.allFinite() || !std::isfinite(turn) || !(turn > 0))
     throw std::invalid_argument("the rest pose of \"" + node.name +
                                 "\" needs finite numbers and a rotation that can be normalized");
+  // Farther out what turns it would make it faster than any number. Of a body the world says so.
+  if (!node.body && (!state::countable(rest.position) || !state::countable(rest.scale)))
+    throw std::invalid_argument("the rest pose of \"" + node.name + "\" needs numbers of at most 1e30");
   if (node.color && !node.color->rgba.allFinite())
     throw std::invalid_argument("the color of \"" + node.name + "\" needs finite numbers");
   // A unit quaternion stays as it was given, to the bit.
