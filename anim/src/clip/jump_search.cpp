@@ -51,7 +51,8 @@ double JumpSearch::first(const Animation& animation, double from, double to, con
   animation.for_each_play(clock, no_node, [&](const RunningPlay& play) {
     const std::size_t clip = play.play().clip;
     if (!follows_[clip]) return;
-    // Where a play begins it may replace what was below it; where it is stopped, that shows again.
+    // Where a play begins it may replace what was below it; where it is stopped, or over and not held, that shows
+    // again.
     consider(play.at());
     if (play.player->is_gone(play.player->end())) consider(play.end());
     consider(play.first_weight_jump(from, to));

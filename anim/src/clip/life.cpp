@@ -227,7 +227,7 @@ Player::Life::~Life() {
 }
 
 Sample<double> Player::Life::weight(double time, Side side) const noexcept {
-  if (is_gone(time, side)) return {0, 0, 0};
+  if (is_stopped(time, side)) return {0, 0, 0};
   Sample<double> weight = play.weight.sample(time - weight_from, side);
   if (fades_in && rise && time - at <= play.fade_in.seconds)
     weight = clips::times(weight, rise->sample(time - at, side));
@@ -246,6 +246,7 @@ Sample<double> Player::Life::over_under(double time) const noexcept {
 PlayVoices Player::voices(double time, Side side) const noexcept {
   const Life* life = &at_time(time, side);
   PlayVoices voices;
+  if (!life->shows(time, side)) return voices;
   voices.list[0] = {life->clock(time, side), life->weight(time, side)};
   voices.count = 1;
   // Of a weight w, the new voice has n = w f, and the one below the rest, 1 - (1 - w) / (1 - n), so that what lies
@@ -256,6 +257,8 @@ PlayVoices Player::voices(double time, Side side) const noexcept {
     PlayVoice& upper = voices.list[voices.count - 1];
     const Sample<double> whole = upper.weight;
     upper.weight = clips::times(whole, part);
+    // What is below the play shows where it showed nothing before; else what ends meanwhile stays until it has faded.
+    if (!life->under->shows(life->under_from, Side::out)) break;
     const double left = 1 - whole.value, open = 1 - upper.weight.value;
     if (!(open > 0)) break;
     const double ratio = left / open, rate = (ratio * upper.weight.rate - whole.rate) / open;

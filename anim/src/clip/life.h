@@ -119,8 +119,17 @@ struct Player::Life : clips::Course {
   ~Life();
 
   [[nodiscard]] Sample<double> weight(double time, Side side) const noexcept;
+  /// Whether it has come to a time.
+  [[nodiscard]] static bool is_past(double instant, double time, Side side) noexcept {
+    return side == Side::out ? time >= instant : time > instant;
+  }
+  [[nodiscard]] bool is_stopped(double time, Side side) const noexcept { return is_past(stopped, time, side); }
   [[nodiscard]] bool is_gone(double time, Side side) const noexcept {
-    return side == Side::out ? time >= stopped : time > stopped;
+    return is_stopped(time, side) || (!fills_after(play.fill) && is_past(end, time, side));
+  }
+  [[nodiscard]] bool shows(double time, Side side) const noexcept {
+    const bool waits = play.fill == Fill::none || play.fill == Fill::forwards;
+    return !is_gone(time, side) && (!waits || is_past(at, time, side));
   }
   [[nodiscard]] double over() const noexcept { return std::min(end, stopped); }
   /// Whether the clock has moved by `time`.

@@ -123,7 +123,8 @@ Play play_of(const playing::Start& start, std::size_t clip) {
           .reverse = start.reverse,
           .loop = start.loop,
           .fade_in = start.fade_in,
-          .fade_out = start.fade_out};
+          .fade_out = start.fade_out,
+          .fill = start.fill};
 }
 
 Player::Player(const Play& play, const Clip& clip)
@@ -156,7 +157,11 @@ ClipClock Player::clock(double time, Side side) const noexcept {
   return at_time(time, side).clock(time, side);
 }
 Sample<double> Player::weight(double time, Side side) const noexcept {
-  return at_time(time, side).weight(time, side);
+  const Life& life = at_time(time, side);
+  return life.shows(time, side) ? life.weight(time, side) : Sample<double>{0, 0, 0};
+}
+bool Player::shows(double time, Side side) const noexcept {
+  return at_time(time, side).shows(time, side);
 }
 bool Player::is_gone(double time, Side side) const noexcept {
   return at_time(time, side).is_gone(time, side);

@@ -41,9 +41,8 @@ NodeLook look_of(const Log& log, const Graph& graph, std::size_t node, const Mom
     const std::uint32_t entry = clip.entry_of(node);
     NodeLook look = below;
     if (entry != pose::BoundClip::no_entry) {
-      ClipClock clock = each.operation->clock_of(log, each.clip, {moment.time, moment.side, each.start});
-      clock.started = true;
-      pose::lay_look_over(clip.entries()[entry], clock, {1, 0, 0}, described, look);
+      const ClipClock clock = each.operation->clock_of(log, each.clip, {moment.time, moment.side, each.start});
+      pose::lay_look_over(clip.entries()[entry], clock, false, {1, 0, 0}, described, look);
     }
     if (is_whole(each.weight)) return look;
     add(std::move(look), each.weight);

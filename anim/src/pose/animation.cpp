@@ -67,14 +67,15 @@ struct Running {
   const std::vector<char>* masked = nullptr;  // null: the whole clip
   const std::vector<Parts>* below = nullptr;  // null: all or nothing, by the next member
   bool covered = false;
+  bool yields = false;  // it has not begun, and what is below comes first
 
   [[nodiscard]] bool drives(std::uint32_t entry) const noexcept {
     return entry != BoundClip::no_entry && (!masked || masked->empty() || !(*masked)[entry]);
   }
-  /// Before a play starts it drives nothing, except parts that nothing below it drives: there its first frame holds.
-  [[nodiscard]] Parts parts(std::uint32_t entry, bool started) const noexcept {
+  /// One that yields has no say, save where nothing below it drives the part: there its first frame holds.
+  [[nodiscard]] Parts parts(std::uint32_t entry) const noexcept {
     const Parts all = clip->entries()[entry].parts;
-    if (started) return all;
+    if (!yields) return all;
     if (!below) return covered ? Parts{0} : all;
     return static_cast<Parts>(all & ~(*below)[entry]);
   }
@@ -82,7 +83,7 @@ struct Running {
 
 void lay_over(const Running& running, std::uint32_t entry, const Hierarchy& nodes, Motion& motion) noexcept {
   const Sample<double>& weight = running.weight;
-  const Parts parts = running.parts(entry, running.clock.started);
+  const Parts parts = running.parts(entry);
   if (parts == 0 || is_nothing(weight)) return;
   Motion over = motion;
   running.clip->sample_entry(entry, nodes, running.clock, over);
@@ -275,6 +276,7 @@ void Animation::for_each_running(double stage_time, Side side, const ClockOverri
     const PlayVoices voices = play->voices(stage_time, side);
     for (std::size_t i = 0; i < voices.count; ++i) {
       running.clock = voices.list[i].clock;
+      running.yields = !running.clock.started && !fills_before(play->play().fill);
       running.weight = voices.list[i].weight;
       visit(running);
     }
@@ -295,7 +297,7 @@ void Animation::sample(double stage_time, std::span<Motion> local, Side side,
   const auto all = [](const pose::Running&) { return true; };
   for_each_running(stage_time, side, own_clock, all, [&](const pose::Running& running) {
     const bool unmasked = !running.masked || running.masked->empty();
-    if (unmasked && running.clock.started && pose::is_whole(running.weight)) {
+    if (unmasked && !running.yields && pose::is_whole(running.weight)) {
       running.clip->sample(*nodes_, running.clock, local);
       return;
     }
@@ -335,7 +337,7 @@ NodeLook Animation::look(std::size_t node, double stage_time, Side side, const C
   };
   for_each_running(stage_time, side, own_clock, shows, [&](const pose::Running& running) {
     const BoundClip::Entry& entry = running.clip->entries()[running.clip->entry_of(node)];
-    pose::lay_look_over(entry, running.clock, running.weight, (*nodes_)[node], look);
+    pose::lay_look_over(entry, running.clock, running.yields, running.weight, (*nodes_)[node], look);
   });
   return look;
 }

@@ -74,10 +74,10 @@ void fade_weights(const WeightCurves& curves, const ClipClock& clock, const Samp
 
 }  // namespace
 
-void lay_look_over(const BoundClip::Entry& entry, const ClipClock& clock, const Sample<double>& weight,
+void lay_look_over(const BoundClip::Entry& entry, const ClipClock& clock, bool yields, const Sample<double>& weight,
                    const Node& node, NodeLook& look) {
-  if (entry.has_color() && (clock.started || !look.color)) fade_color(entry, clock, weight, node, look.color);
-  if (entry.weights && (clock.started || look.weights.empty()))
+  if (entry.has_color() && (!yields || !look.color)) fade_color(entry, clock, weight, node, look.color);
+  if (entry.weights && (!yields || look.weights.empty()))
     fade_weights(*entry.weights, clock, weight, node, look.weights);
 }
 

@@ -8,8 +8,9 @@
 
 namespace tweenfall::pose {
 
-/// Layers a clip's color and weights of a node over the look below.
-void lay_look_over(const BoundClip::Entry& entry, const ClipClock& clock, const Sample<double>& weight,
+/// Lays what a clip has for a node over what it looks like below.
+/// @param yields  where something is below, that shows alone
+void lay_look_over(const BoundClip::Entry& entry, const ClipClock& clock, bool yields, const Sample<double>& weight,
                    const Node& node, NodeLook& look);
 
 }  // namespace tweenfall::pose

@@ -122,6 +122,7 @@ std::string clips_table(const StageDescription& stage) {
         plays += ", " + brief_text(play.from) + " s to " + brief_text(play.to.value_or(clip.duration)) + " s of it";
       if (play.reverse) plays += ", in reverse";
       if (play.loop) plays += ", " + loop_text(*play.loop);
+      if (play.fill != Fill{}) plays += ", fill " + std::string(fill_words[static_cast<std::size_t>(play.fill)]);
     }
     table.row({clip.name, brief_text(clip.duration), loop_text(clip.loop), std::to_string(clip.tracks.size()),
                std::to_string(keys), std::to_string(clip.events.size()), plays});

@@ -5,29 +5,43 @@
 using namespace tweenfall;
 using namespace tweenfall::test;
 
-TEST_CASE("progress and iteration are those of CSS timing") {
-  std::size_t checked = 0;
+TEST_CASE("progress, iteration and fill are those of CSS timing") {
+  std::size_t checked = 0, nothing = 0, cases = 0;
   for (const nlohmann::json& family : vector_family("css_timing"))
     for (const nlohmann::json& each : family.at("cases")) {
       const nlohmann::json& input = each.at("input");
       const double duration = input.at("duration"), start = input.at("iterationStart");
       const bool endless = input.at("iterations").is_string();
       const double iterations = endless ? 0 : input.at("iterations").get<double>();
-      if (!endless && iterations == 0) continue;  // a play has at least something to play
       const std::string direction = input.at("direction"), easing = input.at("easing");
       const bool alternates = direction.find("alternate") == 0;
       Clip clip{.name = "progress", .duration = duration};
       Play play{.at = input.at("delay")};
       play.offset = start * duration;
       play.reverse = direction.find("reverse") != std::string::npos;
-      play.loop = Loop{alternates ? LoopMode::pingpong : LoopMode::repeat, endless ? 0 : start + iterations};
+      // A count of 0 is one without end: rounds that are none are the least that numbers tell.
+      const double rounds = iterations > 0 ? start + iterations : std::nextafter(start, 1e9);
+      play.loop = Loop{alternates ? LoopMode::pingpong : LoopMode::repeat, endless ? 0 : rounds};
+      const auto word = std::ranges::find(fill_words, input.at("fill").get<std::string>());
+      REQUIRE(word != fill_words.end());
+      play.fill = static_cast<Fill>(word - fill_words.begin());
+      ++cases;
       const Ease ease = easing == "linear" ? Ease::linear() : Ease::named(easing).value();
       const Player player(play, clip);
       CAPTURE(each.at("name").get<std::string>());
       if (!endless) CHECK(near(player.end() - play.at, each.at("active_duration").get<double>(), 1e-9));
       for (std::size_t i = 0; i < each.at("t").size(); ++i) {
-        if (each.at("progress")[i].is_null()) continue;
-        const double time = each.at("t")[i], progress = each.at("progress")[i];
+        const double time = each.at("t")[i];
+        CAPTURE(time);
+        const bool shown = !each.at("progress")[i].is_null();
+        // At an edge either side may be meant; and before time 0 nothing runs there yet, whatever its delay.
+        const auto shows = [&](double at) { return player.shows(at) && (at >= 0 || fills_before(play.fill)); };
+        CHECK((shows(time - 1e-6) == shown || shows(time + 1e-6) == shown));
+        if (!shown) {
+          ++nothing;
+          continue;
+        }
+        const double progress = each.at("progress")[i];
         const int iteration = each.at("iteration")[i];
         bool right = false;
         for (const double beside : {0.0, 1e-6, -1e-6})
@@ -39,12 +53,13 @@ TEST_CASE("progress and iteration are those of CSS timing") {
               right = right || (std::abs(value - progress) < 2e-5 && clock.cycle == iteration);
             }
           }
-        CAPTURE(time);
         CHECK(right);
         ++checked;
       }
     }
   CHECK(checked > 0);
+  CHECK(nothing > 0);
+  CHECK(cases == 90);
 }
 
 TEST_CASE("times and weights are those of three.js's mixer, fades, loops and time scales") {

@@ -72,6 +72,24 @@ TEST_CASE("a play says its section, its rounds and its fades") {
   }
 }
 
+TEST_CASE("a play says what it fills, and so does an input that starts one") {
+  CHECK(play_of(R"({"clip": "walk"})").fill == Fill::yielding);
+  for (std::size_t i = 0; i < fill_words.size(); ++i) {
+    const std::string word = "\"" + std::string(fill_words[i]) + "\"";
+    CHECK(play_of("{\"clip\": \"walk\", \"fill\": " + word + "}").fill == static_cast<Fill>(i));
+    const std::string row =
+        "{\"tweenfall\": 1, \"inputs\": [{\"at\": 1, \"start\": {\"play\": \"w\", \"clip\": \"wave\", \"fill\": " +
+        word + "}}]}";
+    const std::vector<TimedInput> inputs = parse_inputs(row, "i.json", walking());
+    CHECK(std::get<playing::Start>(std::get<input::Ask>(inputs.at(0).what).action).fill == static_cast<Fill>(i));
+    const std::string written = inputs_json(inputs);
+    CHECK(inputs_json(parse_inputs(written, "i.json", walking())) == written);
+    CHECK(fault_says(written, word) == (i > 0));
+  }
+  CHECK(fault_says(play_faults(R"({"clip": "walk", "fill": "forward"})"), "did you mean \"forwards\"?"));
+  CHECK(fault_says(play_faults(R"({"clip": "walk", "fill_mode": "both"})"), "did you mean \"fill\"?"));
+}
+
 TEST_CASE("keys of weight and speed run on the play's own time, unless they say the stage's") {
   const Play own = play_of(R"({"clip": "walk", "at": 2, "weight": [[0, 0, "linear"], [1, 1]],
                               "speed": [[0, 0, "linear"], [2, 2]]})");

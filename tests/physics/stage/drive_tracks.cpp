@@ -78,6 +78,25 @@ TEST_CASE("plays with weights mix their drives evenly in the logarithm of the fr
   CHECK(height(stage) == doctest::Approx(-sag(4)).epsilon(0.001));
 }
 
+TEST_CASE("a play has its say in what drives a body while it runs, and beyond that as it fills") {
+  StageDescription description = hanging(Curve<double>(2.0));
+  Clip stiff{.name = "stiff", .duration = 6};
+  stiff.tracks = {{"arm", "drive_hz", Curve<double>(8.0)}};
+  description.clips.push_back(stiff);
+  for (const Fill fill : {Fill::none, Fill::forwards, Fill::backwards, Fill::both}) {
+    std::vector<Play> plays{description.plays.front(), {.clip = 1, .at = 6, .fill = fill}};
+    StageDescription filled = description;
+    filled.plays = plays;
+    Stage stage(filled);
+    stage.advance_to(5.9);
+    CHECK(height(stage) == doctest::Approx(-sag(fills_before(fill) ? 8 : 2)).epsilon(0.001));
+    stage.advance_to(11.9);
+    CHECK(height(stage) == doctest::Approx(-sag(8)).epsilon(0.001));
+    stage.advance_to(18);
+    CHECK(height(stage) == doctest::Approx(-sag(fills_after(fill) ? 8 : 2)).epsilon(0.001));
+  }
+}
+
 TEST_CASE("who is handed over by a rule or the caller is no longer driven by its track") {
   Stage stage(hanging(Curve<double>(5.0)));
   stage.advance_to(1);

@@ -134,6 +134,50 @@ TEST_CASE("a weight that jumps throws nothing") {
   CHECK(stage.twist(1).linear.norm() < 1);
 }
 
+TEST_CASE("a play that is over and shows nothing gives its body back to what is below, and throws nothing") {
+  for (const bool over_another : {false, true}) {
+    StageDescription description;
+    description.world.gravity = {0, 0, 0};
+    description.nodes = {{.name = "wall", .rest = {.position = {3, 0, 0}}, .body = ball(5)},
+                         {.name = "ball", .rest = {.position = {2.5, 0, 0}}, .body = ball(1)}};
+    Clip still = sliding("still", "wall");
+    still.tracks[0].curve = Curve<Vec3>(Vec3(4, 0, 0));
+    description.clips = {still, sliding("slide", "wall")};
+    if (over_another) description.plays = {{.clip = 0}};
+    description.plays.push_back({.clip = 1, .at = 0.3017, .fill = Fill::none});
+    Stage stage(description);
+    const Vec3 below(over_another ? 4 : 3, 0, 0);
+    stage.advance_to(0.3);
+    CHECK(stage.world(0).motion.pose.position == below);
+    stage.advance_to(0.8017);
+    CHECK(near(stage.world(0).motion.pose.position, Vec3(0.5, 0, 0), 1e-12));
+    CHECK(near(stage.twist(0).linear, Vec3(1, 0, 0), 1e-12));
+    stage.advance_to(2);
+    CHECK(stage.world(0).motion.pose.position == below);
+    CHECK(stage.twist(0).linear == Vec3(0, 0, 0));
+    CHECK(stage.world(1).motion.pose.position == Vec3(2.5, 0, 0));
+    CHECK(stage.twist(1).linear == Vec3(0, 0, 0));
+  }
+}
+
+TEST_CASE("at the end of a play that shows nothing after it, a body is let go with the play's own velocity") {
+  StageDescription description;
+  description.world.gravity = {0, 0, 0};
+  description.nodes = {{.name = "cart", .rest = {.position = {9, 0, 0}}, .body = ball(1)}};
+  description.clips = {sliding("slide", "cart")};
+  description.plays = {{.at = 0.2511, .fill = Fill::none}};
+  Rule rule;
+  rule.bodies = {"cart"};
+  rule.when.triggers = {when::ClipEnd{}};
+  description.rules = {rule};
+  Stage stage(description);
+  stage.advance_to(2.2511);
+  REQUIRE(stage.handoffs().size() == 1);
+  CHECK(near(stage.handoffs()[0].time, 1.2511, 1e-12));
+  CHECK(near(stage.world(0).motion.pose.position, Vec3(2, 0, 0), 1e-9));
+  CHECK(near(stage.twist(0).linear, Vec3(1, 0, 0), 1e-12));
+}
+
 TEST_CASE("a clip that jumps onto its last key throws nothing that stands in between") {
   StageDescription description;
   description.world.gravity = {0, 0, 0};

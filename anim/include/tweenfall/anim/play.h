@@ -5,13 +5,14 @@
 /// A play has no state. The time of its clock, its speed and the events between two moments are determined by the stage
 /// time alone, so a stage can be evaluated at any time in any order.
 ///
-/// Before it starts, a play holds the first frame that it will show (where no play below drives the same), and after
-/// its end the last. Changes while it runs are handled by `Player` (player.h).
+/// What it shows before its start and after its end is its `Fill`: usually the first frame, where no play below drives
+/// the same, and the last. What changes while it runs is a `Player`'s (player.h).
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/curves/curve.h>
 #include <tweenfall/curves/ease.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,6 +65,29 @@ struct Fade {
   bool operator==(const Fade&) const = default;
 };
 
+/// What a play shows outside the time in which it runs: before its start the first frame that it will show, after its
+/// end the last. Where it shows nothing, its nodes are what lies below makes of them: at its very start it shows, at
+/// its very end no more. The words are those of CSS; "before" and "after" are stage time, whichever way the clock runs.
+///
+/// Source: Web Animations Level 1, section 4.6.8 ("Fill behavior").
+enum class Fill {
+  yielding,   ///< the last frame; the first one where no play below drives the same
+  none,       ///< nothing
+  forwards,   ///< the last frame
+  backwards,  ///< the first frame
+  both
+};
+
+/// What they are called in documents, in order.
+inline constexpr std::array<std::string_view, 5> fill_words{"yielding", "none", "forwards", "backwards", "both"};
+
+[[nodiscard]] constexpr bool fills_before(Fill fill) noexcept {
+  return fill == Fill::backwards || fill == Fill::both;
+}
+[[nodiscard]] constexpr bool fills_after(Fill fill) noexcept {
+  return fill != Fill::none && fill != Fill::backwards;
+}
+
 /// One clip being played.
 struct Play {
   std::size_t clip = 0;             ///< index of the clip
@@ -80,6 +104,7 @@ struct Play {
   std::optional<Loop> loop{};  ///< absent: the clip's own
   Fade fade_in{};              ///< of the weight, over stage seconds from the start
   Fade fade_out{};             ///< the same to the end of the play, where it has one
+  Fill fill = Fill::yielding;  ///< what it shows before its start and after its end
 };
 
 /// The faults of a play of this clip, one sentence each; empty if there are none.

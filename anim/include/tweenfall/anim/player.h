@@ -40,6 +40,7 @@ struct Start {
   PlayKeys speed{{0, 1}}, weight{{0, 1}};
   Fade fade_in{}, fade_out{};
   std::vector<std::string> mask{};
+  Fill fill = Fill::yielding;
 
   bool operator==(const Start&) const = default;
 };
@@ -105,7 +106,8 @@ struct PlayVoice {
   ClipClock clock;
   Sample<double> weight;
 };
-/// All that a play shows at a time, the lowest first: its clock and, below it while a seek fades, the earlier ones.
+/// All that a play shows at a time, the lowest first: one, and below it, while a seek fades, what it was before; none
+/// where it shows nothing.
 struct PlayVoices {
   static constexpr std::size_t most = 8;  ///< beyond this the oldest is dropped
   std::array<PlayVoice, most> list{};
@@ -134,13 +136,15 @@ class Player {
   [[nodiscard]] Player changed(const Clip& clip, double time, const PlayAction& action) const;
 
   [[nodiscard]] ClipClock clock(double time, Side side = Side::out) const noexcept;
-  /// The weight with its fades; 0 once it was stopped.
+  /// Of its say: with its fades; 0 once it was stopped, and where it does not fill.
   [[nodiscard]] Sample<double> weight(double time, Side side = Side::out) const noexcept;
   /// Clock and weight of each pose that shows, several while a seek fades. Layered, they have the play's weight.
   [[nodiscard]] PlayVoices voices(double time, Side side = Side::out) const noexcept;
-  /// Whether it was stopped and has no weight any more.
+  /// Whether it shows nothing any more: it was stopped, or is over and does not fill what comes after.
   [[nodiscard]] bool is_gone(double time, Side side = Side::out) const noexcept;
-  /// When the current play is over, or stopped, s; infinity for never.
+  /// Whether it shows something, though it may yield to what is below: it runs, or fills.
+  [[nodiscard]] bool shows(double time, Side side = Side::out) const noexcept;
+  /// When the play that runs now is over, or stopped, s; infinity for never.
   [[nodiscard]] double end() const noexcept;
   /// First time in (from, to] at which the weight of the current play jumps at one of its keys; infinity for
   /// none.
@@ -195,6 +199,9 @@ struct RunningPlay {
   }
   [[nodiscard]] bool is_gone(double time, Side side = Side::out) const noexcept {
     return player->is_gone(own_time(time), side);
+  }
+  [[nodiscard]] bool shows(double time, Side side = Side::out) const noexcept {
+    return player->shows(own_time(time), side);
   }
   /// First time in (from, to] at which its weight jumps; infinity for none.
   [[nodiscard]] double first_weight_jump(double from, double to) const noexcept;

@@ -1,5 +1,6 @@
 #include <tweenfall/curves/number_text.h>
 
+#include "document/fields/fill.h"
 #include "document/fields/things.h"
 #include "document/inputs/input_tables.h"
 #include "document/read/clip_times.h"
@@ -126,6 +127,7 @@ const Table<Started>& start_table() {
        {"weight", weight_form, "", keys_of<Started>(true, of(&playing::Start::weight))},
        {"fade_in", fields::fade_form, "", fade(&playing::Start::fade_in)},
        {"fade_out", fields::fade_form, "", fade(&playing::Start::fade_out)},
+       fields::fill_row<Started>(of(&playing::Start::fill)),
        {"mask", fields::FormOf::Make(mask_form), "nodes it drives; absent: all", {read_mask}}});
   return table;
 }

@@ -92,6 +92,7 @@ struct OfAction {
     std::string mask;
     for (const std::string& name : start.mask) mask += (mask.empty() ? "" : ", ") + string_text(name);
     if (!mask.empty()) fields.add("mask", "[" + mask + "]");
+    if (start.fill != usual.fill) fields.add("fill", string_text(fill_words[static_cast<std::size_t>(start.fill)]));
     return {"start", fields.object()};
   }
   Said operator()(const playing::Stop& stop) const {

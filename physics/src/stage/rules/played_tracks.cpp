@@ -30,14 +30,14 @@ void for_each_played(const StageState& state, const StagedBody& body, std::span<
   const bool alone = clock.clip != ClockOverride::every_clip;
   const double time = std::max(0.0, state.handled);
   state.animation->for_each_play(clock, no_node, [&](const RunningPlay& running) {
-    if (!alone && running.is_gone(time)) return;
+    if (!alone && !running.shows(time)) return;
     const Play& play = running.play();
     const auto track = std::ranges::find(tracks, play.clip, &PlayedTrack<T>::clip);
     if (track == tracks.end()) return;
     const auto names = [&](const std::string& pattern) { return matches(pattern, name); };
     if (!alone && !play.mask.empty() && std::ranges::none_of(play.mask, names)) return;
     const ClipClock at = running.clock(time);
-    if (at.started) visit(track->curve->value(at.time, at.side), running.weight(time).value);
+    if (at.started || fills_before(play.fill)) visit(track->curve->value(at.time, at.side), running.weight(time).value);
   });
 }
 

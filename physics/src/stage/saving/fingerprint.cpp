@@ -92,7 +92,7 @@ std::uint64_t fingerprint(const StageDescription& description) {
   for (const Play& play : description.plays) {
     visit.places(play.clip);
     visit(play.at, play.mask, play.name, play.from, play.to, play.offset, play.reverse, play.loop, play.fade_in,
-          play.fade_out);
+          play.fade_out, play.fill);
     sampling(play.speed.curve().value_or(Curve<double>(play.speed.at(0))));
     sampling(play.weight);
   }

@@ -15,7 +15,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-constexpr saving::Envelope stage_envelope{"stage", 5};
+constexpr saving::Envelope stage_envelope{"stage", 6};
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("a saved stage has a bad " + what);

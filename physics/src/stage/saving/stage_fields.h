@@ -26,6 +26,8 @@ inline constexpr int last_of<EventKind> = static_cast<int>(EventKind::end);
 template <>
 inline constexpr int last_of<LoopMode> = static_cast<int>(LoopMode::pingpong);
 template <>
+inline constexpr int last_of<Fill> = static_cast<int>(Fill::both);
+template <>
 inline constexpr int last_of<Combine> = static_cast<int>(Combine::maximum);
 
 // Rules
@@ -215,8 +217,8 @@ void each_field(T& key, const Visit& visit) {
 
 template <Is<playing::Start> T, class Visit>
 void each_field(T& start, const Visit& visit) {
-  auto& [clip, from, to, offset, reverse, loop, speed, weight, fade_in, fade_out, mask] = start;
-  visit(clip, from, to, offset, reverse, loop, speed, weight, fade_in, fade_out, mask);
+  auto& [clip, from, to, offset, reverse, loop, speed, weight, fade_in, fade_out, mask, fill] = start;
+  visit(clip, from, to, offset, reverse, loop, speed, weight, fade_in, fade_out, mask, fill);
 }
 
 template <class T, class Visit>
