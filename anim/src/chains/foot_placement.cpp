@@ -72,38 +72,42 @@ FootPlacement::FootPlacement(const Hierarchy& nodes, const FootPlacementSettings
       tilt_(settings.tilt),
       softness_(settings.softness) {
   chains::Problems problems("foot placement");
-  pelvis_ = problems.node(nodes, settings.pelvis, "pelvis");
-  problems.require(!settings.feet.empty() && settings.feet.size() <= most_feet_placed,
-                   "it has " + std::to_string(settings.feet.size()) + " feet; it needs from 1 to " +
-                       std::to_string(most_feet_placed));
-  problems.require_finite(up_, "up");
+  pelvis_ = problems.at({"pelvis"}).node(nodes, settings.pelvis, "pelvis");
+  problems.at({"legs"}).require(!settings.feet.empty() && settings.feet.size() <= most_feet_placed,
+                                "it has " + std::to_string(settings.feet.size()) + " feet; it needs from 1 to " +
+                                    std::to_string(most_feet_placed));
+  problems.at({}).require_finite(up_, "up");
   problems.require(up_.squaredNorm() > 0, "up is zero");
-  problems.require_in(lowest_, 0, chains::largest, "lowest");
-  problems.require_in(highest_, 0, chains::largest, "highest");
-  problems.require_in(evenness_, 0, chains::largest, "evenness");
-  problems.require_in(tilt_, 0, 0.5 * std::numbers::pi, "tilt");
-  problems.require_in(softness_, 0, 0.5, "softness");
+  problems.at({"lowest"}).require_in(lowest_, 0, chains::largest, "lowest");
+  problems.at({"highest"}).require_in(highest_, 0, chains::largest, "highest");
+  problems.at({"evenness"}).require_in(evenness_, 0, chains::largest, "evenness");
+  problems.at({"tilt"}).require_in(tilt_, 0, 0.5 * std::numbers::pi, "tilt");
+  problems.at({"softness"}).require_in(softness_, 0, 0.5, "softness");
   up_ = up_ / std::sqrt(up_.squaredNorm());
   std::vector<Motion> rest(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) rest[i].pose = nodes[i].rest;
   for (std::size_t i = 0; i < settings.feet.size(); ++i) {
     const FootSettings& told = settings.feet[i];
     const std::string name = "foot " + std::to_string(i + 1);
+    const std::string number = std::to_string(i);
+    problems.at({"legs", number});
     problems.include(
         [&] {
           Foot foot{TwoBoneChain(nodes, told.leg), 0};
           const WorldMotion world =
               nodes.world_motion(foot.leg.end(), [&](std::size_t node) -> const Motion& { return rest[node]; });
           foot.ankle_height = told.ankle_height.value_or(std::max(0.0, world.motion.pose.position.dot(up_)));
-          problems.require_in(foot.ankle_height, -chains::largest, chains::largest, "ankle_height of " + name);
+          problems.at({"legs", number, "ankle_height"})
+              .require_in(foot.ankle_height, -chains::largest, chains::largest, "ankle_height of " + name);
           if (pelvis_ != no_node)
-            problems.require(
-                chains::is_below(nodes, foot.leg.start(), pelvis_),
-                name + ": its leg must be below the pelvis (" + chains::called(nodes, settings.pelvis) + ")");
+            problems.at({"legs", number, "start"})
+                .require(chains::is_below(nodes, foot.leg.start(), pelvis_),
+                         name + ": its leg must be below the pelvis (" + chains::called(nodes, settings.pelvis) + ")");
           for (const Foot& other : feet_)
-            problems.require(!chains::is_below(nodes, foot.leg.end(), other.leg.start()) &&
-                                 !chains::is_below(nodes, other.leg.end(), foot.leg.start()),
-                             name + ": its leg shares joints with one before");
+            problems.at({"legs", number})
+                .require(!chains::is_below(nodes, foot.leg.end(), other.leg.start()) &&
+                             !chains::is_below(nodes, other.leg.end(), foot.leg.start()),
+                         name + ": its leg shares joints with one before");
           feet_.push_back(std::move(foot));
         },
         name + ":");

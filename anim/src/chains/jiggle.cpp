@@ -133,14 +133,15 @@ JiggleChain::JiggleChain(const Hierarchy& nodes, const JiggleSettings& settings)
   chains::Problems problems("jiggle chain");
   const bool with_tip = !settings.tip.isZero(0);
   const std::size_t least = with_tip ? 1 : 2;
-  problems.require(settings.joints.size() >= least, "it has " + std::to_string(settings.joints.size()) +
-                                                        (settings.joints.size() == 1 ? " joint" : " joints") +
-                                                        "; it needs two, or one and a tip");
+  problems.at({"joints"})
+      .require(settings.joints.size() >= least, "it has " + std::to_string(settings.joints.size()) +
+                                                    (settings.joints.size() == 1 ? " joint" : " joints") +
+                                                    "; it needs two, or one and a tip");
   joints_ = problems.chain(nodes, settings.joints);
   problems.include([&] { spring_ = SpringFollower(settings.spring); }, "each joint's");
-  problems.require_finite(tip_, "tip");
-  problems.require_in(limit_, 0, std::numbers::pi, "limit");
-  problems.require_in(ease_, 0, chains::largest, "ease");
+  problems.at({"tip"}).require_finite(tip_, "tip");
+  problems.at({"limit"}).require_in(limit_, 0, std::numbers::pi, "limit");
+  problems.at({"ease"}).require_in(ease_, 0, chains::largest, "ease");
   problems.report();
   if (!with_tip) {
     tail_ = joints_.back();

@@ -50,28 +50,29 @@ LookAtChain::LookAtChain(const Hierarchy& nodes, const LookAtSettings& settings)
       limit_(settings.limit),
       ease_(settings.ease) {
   chains::Problems problems("look-at chain");
-  problems.require(!settings.joints.empty(), "it has no joint; it needs at least the one that looks");
+  problems.at({"joints"}).require(!settings.joints.empty(), "it has no joint; it needs at least the one that looks");
   std::vector<NodeRef> told;
   told.reserve(settings.joints.size());
   for (const LookAtJoint& joint : settings.joints) told.push_back(joint.node);
   const std::vector<std::size_t> found = problems.chain(nodes, told);
   joints_.reserve(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
-    problems.require_in(settings.joints[i].share, 0, 1, "share of joint " + std::to_string(i + 1));
+    problems.at({"joints", std::to_string(i), "share"})
+        .require_in(settings.joints[i].share, 0, 1, "share of joint " + std::to_string(i + 1));
     joints_.push_back({found[i], settings.joints[i].share});
   }
-  problems.require_finite(forward_, "forward");
-  problems.require_finite(up_, "up");
-  problems.require_finite(eye_, "eye");
-  problems.require_in(limit_, 0, std::numbers::pi, "limit");
-  problems.require_in(ease_, 0, chains::largest, "ease");
+  problems.at({"forward"}).require_finite(forward_, "forward");
+  problems.at({"up"}).require_finite(up_, "up");
+  problems.at({"eye"}).require_finite(eye_, "eye");
+  problems.at({"limit"}).require_in(limit_, 0, std::numbers::pi, "limit");
+  problems.at({"ease"}).require_in(ease_, 0, chains::largest, "ease");
   problems.report();
-  problems.require(forward_.norm() > 0, "forward is zero");
-  problems.require(up_.norm() > 0, "up is zero");
+  problems.at({"forward"}).require(forward_.norm() > 0, "forward is zero");
+  problems.at({"up"}).require(up_.norm() > 0, "up is zero");
   problems.report();
   forward_ = forward_ / forward_.norm();
   up_ = up_ / up_.norm();
-  problems.require(up_.cross(forward_).norm() > 1e-6, "up is along forward; it must be across it");
+  problems.at({"up"}).require(up_.cross(forward_).norm() > 1e-6, "up is along forward; it must be across it");
   problems.report();
   up_ = up_ - up_.dot(forward_) * forward_;
   up_ = up_ / up_.norm();

@@ -19,10 +19,10 @@ std::optional<SpringFollower> spring_of(const std::optional<SpringSettings>& set
 
 NodeSpring::NodeSpring(const Hierarchy& nodes, const NodeSpringSettings& settings) : nodes_(nodes), node_(no_node) {
   chains::Problems problems("node spring");
-  node_ = problems.node(nodes, settings.node, "node");
-  problems.require(settings.position || settings.rotation, "it has neither a position nor a rotation to follow");
-  problems.include([&] { position_ = chains::spring_of(settings.position); }, "position");
-  problems.include([&] { rotation_ = chains::spring_of(settings.rotation); }, "rotation");
+  node_ = problems.at({"node"}).node(nodes, settings.node, "node");
+  problems.at({}).require(settings.position || settings.rotation, "it has neither a position nor a rotation to follow");
+  problems.at({"position"}).include([&] { position_ = chains::spring_of(settings.position); }, "position");
+  problems.at({"rotation"}).include([&] { rotation_ = chains::spring_of(settings.rotation); }, "rotation");
   problems.report();
 }
 

@@ -19,8 +19,22 @@ std::string NodeRef::text() const {
 
 namespace chains {
 
+namespace {
+
+std::string listed(std::span<const Problem> problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + problem.text;
+  return text;
+}
+
+}  // namespace
+
+Unfit::Unfit(std::vector<Problem> problems)
+    : std::invalid_argument(listed(problems)),
+      problems_(std::make_shared<const std::vector<Problem>>(std::move(problems))) {}
+
 void Problems::add(const std::string& problem) {
-  text_ += (text_.empty() ? "" : "\n") + what_ + ": " + problem;
+  problems_.push_back({member_, what_ + ": " + problem});
 }
 
 bool Problems::require(bool holds, const std::string& problem) {
@@ -46,6 +60,7 @@ std::vector<std::size_t> Problems::chain(const Hierarchy& nodes, std::span<const
   result.reserve(told.size());
   for (std::size_t i = 0; i < told.size(); ++i) {
     const std::string name = "joint " + std::to_string(i + 1);
+    at({"joints", std::to_string(i)});
     const std::size_t index = node(nodes, told[i], name);
     if (i > 0 && index != no_node && result.back() != no_node)
       require(is_below(nodes, index, result.back()), name + " (" + called(nodes, told[i]) +
@@ -53,14 +68,16 @@ std::vector<std::size_t> Problems::chain(const Hierarchy& nodes, std::span<const
                                                          called(nodes, told[i - 1]) + ")");
     result.push_back(index);
   }
+  at({});
   return result;
 }
 
-void Problems::add_all(const std::string& lines, const std::string& whose) {
-  for (std::size_t at = 0; at <= lines.size();) {
-    const std::size_t end = std::min(lines.find('\n', at), lines.size());
-    add(whose + " " + lines.substr(at, end - at));
-    at = end + 1;
+void Problems::add_all(std::span<const Problem> problems, const std::string& whose) {
+  const Member here = member_;
+  for (const Problem& problem : problems) {
+    member_.insert(member_.end(), problem.member.begin(), problem.member.end());
+    add(whose + " " + problem.text);
+    member_ = here;
   }
 }
 
@@ -75,7 +92,7 @@ void Problems::require_in(double number, double low, double high, const std::str
 }
 
 void Problems::report() const {
-  if (!none()) throw std::invalid_argument(text_);
+  if (!none()) throw Unfit(problems_);
 }
 
 std::string called(const Hierarchy& nodes, const NodeRef& told) {

@@ -4,6 +4,7 @@
 
 #include <tweenfall/anim/node_ref.h>
 
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -12,11 +13,34 @@
 
 namespace tweenfall::chains {
 
+/// Where in what a chain is made of, by the words of documents, the outermost first: {"joints", "2"}.
+using Member = std::vector<std::string>;
+
+struct Problem {
+  Member member;  ///< empty: all of it
+  std::string text;
+};
+
+/// All problems of a chain, as one text and each at its member.
+class Unfit : public std::invalid_argument {
+ public:
+  explicit Unfit(std::vector<Problem> problems);
+  [[nodiscard]] std::span<const Problem> problems() const noexcept { return *problems_; }
+
+ private:
+  std::shared_ptr<const std::vector<Problem>> problems_;  // copying what is thrown must not throw
+};
+
 class Problems {
  public:
   /// @param what the thing checked, such as "two-bone chain"
   explicit Problems(std::string what) : what_(std::move(what)) {}
 
+  /// What is added next is wrong at this member.
+  Problems& at(Member member) {
+    member_ = std::move(member);
+    return *this;
+  }
   void add(const std::string& problem);
   /// Adds the problem unless it `holds`. @returns holds
   bool require(bool holds, const std::string& problem);
@@ -25,26 +49,28 @@ class Problems {
   void require_finite(const Vec3& v, const std::string& name);
   void require_in(double number, double low, double high, const std::string& name);
 
-  /// The nodes in order, each below the one before. @returns for each its number or `no_node`
+  /// The nodes in order, each below the one before, which are its "joints". @returns of each its number or `no_node`
   [[nodiscard]] std::vector<std::size_t> chain(const Hierarchy& nodes, std::span<const NodeRef> told);
-  /// Adds the problems that `make` throws, each prefixed by `whose`.
+  /// The problems of a part that `make` throws, each behind `whose`, at a member of this one.
   template <class Make>
   void include(const Make& make, const std::string& whose) {
     try {
       make();
-    } catch (const std::invalid_argument& fault) {
-      add_all(fault.what(), whose);
+    } catch (const Unfit& part) {
+      add_all(part.problems(), whose);
     }
   }
 
-  [[nodiscard]] bool none() const noexcept { return text_.empty(); }
-  /// @throws std::invalid_argument listing them, when there are any.
+  [[nodiscard]] bool none() const noexcept { return problems_.empty(); }
+  /// @throws Unfit listing them, when there are any.
   void report() const;
 
  private:
-  void add_all(const std::string& lines, const std::string& whose);
+  void add_all(std::span<const Problem> problems, const std::string& whose);
 
-  std::string what_, text_;
+  std::string what_;
+  Member member_;
+  std::vector<Problem> problems_;
 };
 
 /// A node as shown to people: by its name, if it has one.

@@ -87,10 +87,10 @@ SpringState SpringState::from_bytes(std::span<const std::byte> bytes) {
 SpringFollower::SpringFollower(const SpringSettings& settings)
     : settings_(settings), frequency_(2 * std::numbers::pi * settings.hz) {
   chains::Problems problems("spring");
-  problems.require_in(settings.hz, 0, 1e5, "hz");
-  problems.require_in(settings.damping, 0, 100, "damping");
-  problems.require_finite(settings.gravity, "gravity");
-  problems.require_in(settings.steps_per_second, 1, 1e5, "steps_per_second");
+  problems.at({"hz"}).require_in(settings.hz, 0, 1e5, "hz");
+  problems.at({"damping"}).require_in(settings.damping, 0, 100, "damping");
+  problems.at({"gravity"}).require_finite(settings.gravity, "gravity");
+  problems.at({"steps_per_second"}).require_in(settings.steps_per_second, 1, 1e5, "steps_per_second");
   problems.report();
   of_step_ = shares(1 / settings_.steps_per_second);
 }

@@ -240,18 +240,19 @@ bool is_stiff(const TwoBoneChain& chain, const Motion& start, const Motion& midd
 
 TwoBoneChain::TwoBoneChain(const Hierarchy& nodes, const TwoBoneSettings& settings) : nodes_(nodes) {
   chains::Problems problems("two-bone chain");
-  start_ = problems.node(nodes, settings.start, "start");
-  middle_ = problems.node(nodes, settings.middle, "middle");
-  end_ = problems.node(nodes, settings.end, "end");
+  start_ = problems.at({"start"}).node(nodes, settings.start, "start");
+  middle_ = problems.at({"middle"}).node(nodes, settings.middle, "middle");
+  end_ = problems.at({"end"}).node(nodes, settings.end, "end");
   if (start_ != no_node && middle_ != no_node)
-    problems.require(chains::is_below(nodes, middle_, start_), "middle (" + chains::called(nodes, settings.middle) +
-                                                                   ") must be below start (" +
-                                                                   chains::called(nodes, settings.start) + ")");
+    problems.at({"middle"})
+        .require(chains::is_below(nodes, middle_, start_), "middle (" + chains::called(nodes, settings.middle) +
+                                                               ") must be below start (" +
+                                                               chains::called(nodes, settings.start) + ")");
   if (middle_ != no_node && end_ != no_node)
-    problems.require(chains::is_below(nodes, end_, middle_), "end (" + chains::called(nodes, settings.end) +
-                                                                 ") must be below middle (" +
-                                                                 chains::called(nodes, settings.middle) + ")");
-  if (settings.axis) problems.require_finite(*settings.axis, "axis");
+    problems.at({"end"}).require(chains::is_below(nodes, end_, middle_),
+                                 "end (" + chains::called(nodes, settings.end) + ") must be below middle (" +
+                                     chains::called(nodes, settings.middle) + ")");
+  if (settings.axis) problems.at({"axis"}).require_finite(*settings.axis, "axis");
   problems.report();
 
   std::vector<Motion> rest(nodes.size());
@@ -262,13 +263,14 @@ TwoBoneChain::TwoBoneChain(const Hierarchy& nodes, const TwoBoneSettings& settin
   const double size = std::sqrt(axis.squaredNorm());
   const double bone = std::sqrt(first.squaredNorm()), lengths = bone * std::sqrt(second.squaredNorm());
   if (settings.axis) {
-    problems.require(size > 0, "axis is zero");
+    problems.at({"axis"}).require(size > 0, "axis is zero");
     problems.require(bone == 0 || std::sqrt(axis.cross(first).squaredNorm()) > 1e-6 * size * bone,
                      "axis is along the bone from start to middle; it must be across it");
   } else {
-    problems.require(size > 1e-6 * lengths && size > 0,
-                     "it is straight at rest, so the direction of its bend is not known: give axis, about which the "
-                     "middle turns when it bends, in the space of the start");
+    problems.at({}).require(
+        size > 1e-6 * lengths && size > 0,
+        "it is straight at rest, so that which way it bends must be told: give axis, about which the "
+        "middle turns when it bends, in the space of the start");
   }
   problems.report();
   axis_ = axis / size;

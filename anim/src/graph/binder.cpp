@@ -296,9 +296,15 @@ std::size_t Binder::node(const std::string& name, const Place& place) {
 }
 
 JointMask Binder::mask(const std::vector<MaskPart>& parts, const Place& place) {
-  JointMask mask;
-  if (!parts.empty()) attempt(place, [&] { mask = JointMask(nodes_, parts); });
-  return mask;
+  // Each by itself, so that each is told at its own place.
+  bool fits = !parts.empty();
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    fits = attempt(inside(place, {std::to_string(i)}),
+                   [&] {
+                     static_cast<void>(JointMask(nodes_, {&parts[i], 1}));
+                   }) &&
+           fits;
+  return fits ? JointMask(nodes_, parts) : JointMask();
 }
 
 std::size_t Binder::machine_number() const noexcept {

@@ -3,6 +3,7 @@
 // Used while operations are made: finds the poses, clips, parameters and joints that they name, or reports them as
 // missing.
 
+#include "chains/problems.h"
 #include "operations/number.h"
 #include "operations/operation.h"
 #include "pose/bound_clip.h"
@@ -92,6 +93,9 @@ class Binder {
     try {
       make();
       return true;
+    } catch (const chains::Unfit& unfit) {
+      for (const chains::Problem& problem : unfit.problems()) fault(inside(place, problem.member), problem.text);
+      return false;
     } catch (const std::invalid_argument& problems) {
       fault_each(place, problems.what());
       return false;
@@ -99,6 +103,10 @@ class Binder {
   }
 
  private:
+  [[nodiscard]] static Place inside(Place place, const Place& member) {
+    place.insert(place.end(), member.begin(), member.end());
+    return place;
+  }
   void fault_each(const Place& place, const std::string& lines);
   void bind_parameters();
   void bind_inputs();

@@ -32,6 +32,45 @@ bool tells(const std::string& pose, const std::string& words) {
 
 }  // namespace
 
+TEST_CASE("faults of chains, legs and masks are told at the member that is wrong") {
+  const auto at = [](const std::string& place) { return " (at /graphs/g/poses/p/" + place + ")"; };
+  const std::string reach = "{\"reach\": {\"target\": \"d\", \"joints\": [";
+  CHECK(tells(reach + "\"a\", {\"node\": \"d\"}, \"c\"]}}", at("reach/joints/1")));
+  CHECK(tells(reach + "\"a\", \"d\"]}}", at("reach/joints/1")));
+  CHECK(tells(reach + "\"a\"]}}", at("reach/joints")));
+  CHECK(tells(reach + "\"a\", {\"node\": \"b\", \"hinge\": {\"axis\": [0, 0, 0]}}, \"c\"]}}",
+              at("reach/joints/1/hinge/axis")));
+  CHECK(tells(reach + "\"a\", {\"node\": \"b\", \"hinge\": {}}]}}", at("reach/joints/1")));
+  const std::string bones = "{\"two_bone\": {\"target\": \"d\", \"start\": \"a\", \"middle\": ";
+  CHECK(tells(bones + "\"d\", \"end\": \"c\"}}", at("two_bone/middle")));
+  CHECK(tells(bones + "\"b\", \"end\": \"a\"}}", at("two_bone/end")));
+  CHECK(tells(bones + "\"b\", \"end\": \"c\", \"axis\": [0, 1, 0]}}", at("two_bone/axis")));
+  CHECK(tells("{\"look_at\": {\"target\": \"d\", \"joints\": [\"b\", \"a\"]}}", at("look_at/joints/1")));
+  CHECK(tells("{\"look_at\": {\"target\": \"d\", \"joints\": [\"a\"], \"up\": [0, 0, 1], \"forward\": [0, 0, 2]}}",
+              at("look_at/up")));
+  CHECK(tells("{\"jiggle\": {\"joints\": [\"a\", \"d\"]}}", at("jiggle/joints/1")));
+  const auto standing = [](const std::string& pelvis, const std::string& middle) {
+    return faults_of(
+        R"({"tweenfall": 1, "nodes": {"p": {}, "o": {}, "a": {"parent": "p", "position": [0, 2, 0]},
+      "b": {"parent": "a", "position": [0, -1, 0.1]}, "c": {"parent": "b", "position": [0, -1, 0]},
+      "hill": {"body": {"static": true, "shape": {"height_field": {"spacing": 1, "heights": [[0, 0], [0, 1]]}}}}},
+      "graphs": {"g": {"poses": {"p": {"feet": {"ground": "hill", "pelvis": ")" +
+            pelvis + R"(", "legs": [{"start": "a", "middle": ")" + middle + R"(", "end": "c"}]}}}}}})",
+        "g.json", {});
+  };
+  CHECK(standing("p", "b").empty());
+  CHECK(standing("o", "b").find(at("feet/legs/0/start")) != std::string::npos);
+  CHECK(standing("p", "o").find(at("feet/legs/0/middle")) != std::string::npos);
+  const auto masked = [](const std::string& mask) {
+    return "{\"layers\": [{\"over\": \"q\", \"mask\": " + mask + "}]}, \"q\": {\"rest\": true}";
+  };
+  CHECK(reach_faults(masked("[\"a\", {\"joints\": \"b\"}]")).empty());
+  CHECK(tells(masked("[\"a\", \"x\", {\"joints\": \"c*\"}]"), at("layers/0/mask/1")));
+  CHECK(tells(masked("[\"a\", \"b\", {\"joints\": \"x*\", \"weight\": 0.5}]"), at("layers/0/mask/2")));
+  CHECK(tells(masked("\"x\""), at("layers/0/mask")));
+  CHECK(tells(masked("{\"joints\": \"x\"}"), at("layers/0/mask")));
+}
+
 TEST_CASE("operations of a document mean what the same operations mean in C++") {
   const Document document = Document::read(data_folder() / "documents/good/graph_reach.json");
   const GraphDescription& graph = document.stage().graphs.at(0);

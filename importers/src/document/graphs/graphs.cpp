@@ -148,7 +148,8 @@ const Table<GraphDescription>& graph_table() {
   return table;
 }
 
-// The value at a fault's place, or the last existing one on the way, and whether the place was reached.
+// The value at a fault's place, or the last on the way that is there, and whether it is all the way. A list of one may
+// stand without its brackets.
 std::pair<json::Value, bool> place_in(json::Value value, const std::vector<std::string>& place) {
   for (const std::string& part : place) {
     json::Value next = usable(value, part);
@@ -157,6 +158,7 @@ std::pair<json::Value, bool> place_in(json::Value value, const std::vector<std::
       std::from_chars(part.data(), part.data() + part.size(), index);
       if (index < value.items().size() && !value.items()[index].is(Kind::faulty)) next = value.items()[index];
     }
+    if (!next && part == "0" && !value.is(Kind::list)) continue;
     if (!next) return {value, false};
     value = next;
   }
