@@ -11,9 +11,14 @@ namespace {
 
 /// Knots nearer than this to the one before are left out, unless the curves turn out to need them: files round times.
 constexpr double nearest_knots = 1e-6;  // s
-/// A change within less than this counts as a jump, even where there is no knot.
-constexpr double shortest = 1e-9;  // s
-constexpr std::size_t most_knots_of_fit = 200000;
+/// A change that is over within this is a jump, even where no knot tells of it. Where a curve leaves a key straight up,
+/// as those that are a part of a circle do, it has come a part of 1e-7 of its way by then, or of 2e-5 where it is a
+/// cube root.
+constexpr double shortest = 1e-14;  // s
+/// Pieces so short may be straight where the slopes of the curve lead nowhere, for they grow without end.
+constexpr double shortest_bent = 1e-6;  // s
+/// What a fit may take: so many knots for each of the curves', and some more. It bounds the time of compiling.
+constexpr std::size_t most_for_each = 16, most_more = 20000;
 
 /// The values of a channel at one time, and how fast they change: up to four of each lane.
 struct Look {
@@ -90,12 +95,12 @@ class Fitter {
  private:
   void piece(double from, const Look& left, double to, const Look& right) {
     if (given_up_) return;
-    if (to - from <= shortest + 1e-15 * std::abs(to) || near(from, left, to, right)) {
-      if (fit_.knots.empty() || !joined(left, std::max(to - from, from - last_begin_))) add(from, left);
-      add(to, right);
-      last_begin_ = from;
-      before_ = right;
-      return;
+    if (near(from, left, to, right)) return keep(from, left, to, right);
+    const bool over = to - from <= shortest + 1e-15 * std::abs(to);
+    if (over || (fit_.cubic && to - from <= shortest_bent)) {
+      Look first = left, last = right;
+      straighten(first, last, to - from);
+      if (over || near(from, first, to, last)) return keep(from, first, to, last);
     }
     const double middle = split(from, to);
     Look arriving = look(middle, Side::in), leaving = look(middle, Side::out);
@@ -107,7 +112,23 @@ class Fitter {
     piece(middle, leaving, to, end);
   }
 
-  /// A knot of a curve that was merged with its neighbor, or else the middle.
+  void keep(double from, const Look& left, double to, const Look& right) {
+    if (fit_.knots.empty() || !joined(left, std::max(to - from, from - last_begin_))) add(from, left);
+    add(to, right);
+    last_begin_ = from;
+    before_ = right;
+  }
+
+  /// Makes a line of the piece between two looks.
+  void straighten(Look& left, Look& right, double length) const {
+    for (std::size_t lane = 0; lane < lane_count; ++lane)
+      for (std::size_t c = 0; c < components(kind_); ++c) {
+        const double way = right.value[c][lane] - left.value[c][lane];
+        left.rate[c][lane] = right.rate[c][lane] = way == 0 ? 0 : way / length;
+      }
+  }
+
+  /// A knot of a curve that was taken for one with its neighbor, or else the middle.
   [[nodiscard]] double split(double from, double to) const {
     const auto first = std::ranges::upper_bound(knots_, from);
     const auto last = std::ranges::lower_bound(knots_, to);
@@ -199,17 +220,25 @@ Fitted fitted(const ExactPose& exact, const CurveKnots& knots, std::size_t group
       still.values.insert(still.values.end(), std::begin(look.value[c]), std::end(look.value[c]));
     return still;
   }
-  Fitted lines = fitter.fit(times, false, most_knots_of_fit);
-  // A knot of a cubic takes twice the room, but lines may need many more knots.
-  Fitted cubics = fitter.fit(times, true, lines.knots.empty() ? most_knots_of_fit : lines.knots.size() / 2);
+  // A knot of a cubic takes twice the room; but where its neighbors are far apart it is the lines that take more.
+  // Whether few lines do is known soon. Else the cubics come first, and lines are tried as far as they would take less.
+  const std::size_t most = most_more + most_for_each * times.size();
+  Fitted lines = fitter.fit(times, false, 4 * times.size());
+  if (!lines.knots.empty()) {
+    Fitted cubics = fitter.fit(times, true, lines.knots.size() / 2);
+    return cubics.knots.empty() ? lines : cubics;
+  }
+  Fitted cubics = fitter.fit(times, true, most);
+  lines = fitter.fit(times, false, cubics.knots.empty() ? most : std::min(most, 2 * cubics.knots.size() - 1));
+  if (!lines.knots.empty()) return lines;
   if (!cubics.knots.empty()) return cubics;
-  if (lines.knots.empty())
-    throw std::invalid_argument("200,000 knots are too few for the " +
-                                std::string(kind == Kind::rotation ? "rotation"
-                                            : kind == Kind::scale  ? "scale"
-                                                                   : "position") +
-                                " of the joints from \"" + exact.nodes()[group * lane_count].name + "\" on");
-  return lines;
+  throw std::invalid_argument("clip \"" + exact.clip().name + "\" cannot be compiled for a crowd: the " +
+                              std::string(kind == Kind::rotation ? "rotations"
+                                          : kind == Kind::scale  ? "scales"
+                                                                 : "positions") +
+                              " of the joints from \"" + exact.nodes()[group * lane_count].name +
+                              "\" on change so fast that " + std::to_string(most) +
+                              " knots are too few for them; smooth slopes are as steep as keys are close");
 }
 
 }  // namespace tweenfall::crowd

@@ -17,9 +17,9 @@ struct CurveKnots {
   std::array<std::vector<std::vector<double>>, 3> of;  ///< for each kind and node; s, in no order
 };
 
-/// A channel through the knots of its curves, and as many more as are needed to keep each of its numbers within the
-/// `tolerance` of its lane.
-/// @throws std::invalid_argument where 200,000 knots are not enough
+/// A channel through the knots of its curves, and as many more as it takes for none of its numbers to be further off
+/// than `tolerance` has it for the lane.
+/// @throws std::invalid_argument where 20,000 knots and 16 for each of the curves' do not do
 [[nodiscard]] Fitted fitted(const ExactPose& exact, const CurveKnots& knots, std::size_t group, Kind kind,
                             const std::array<double, CrowdGroup::size>& tolerance);
 
