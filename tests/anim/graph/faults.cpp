@@ -35,7 +35,7 @@ TEST_CASE("all faults of a graph are listed, each with its place") {
         "/parameters/speed: two parameters are named \"speed\"\n"
         "/poses/b/blend/1: poses go around in a circle: \"a\" -> \"b\" -> \"a\"\n"
         "/poses/a/layers/0/mask/0: no joint is named \"uper\"; did you mean \"upper\"?\n"
-        "/poses/c/blend: these weights sum to nothing; give one above 0\n"
+        "/poses/c/blend: these weights sum to zero; give one above 0\n"
         "/poses/d/clip: there is no clip \"wlak\"; did you mean \"walk\"?\n"
         "/poses/e/machine/states/two: there is no pose or clip \"runn\"\n"
         "/poses/e/machine/transitions/0/to: there is no state \"tow\"; did you mean \"two\"?\n"

@@ -127,8 +127,7 @@ TEST_CASE("faults of graphs are told with their places") {
           .find("g.json:6:15: error: poses go around in a circle: \"a\" -> \"b\" -> \"a\"") == 0);
   CHECK(graph_faults("\"a\": {\"layers\": [{\"over\": \"walk\", \"mask\": [\"knee\", \"ankle\"]}]}")
             .find("error: no joint is named \"ankle\" (at /graphs/g/poses/a/layers/0/mask/1)") != std::string::npos);
-  CHECK(graph_faults("\"a\": {\"blend\": [[\"walk\", 0]]}").find("g.json:5:16: error: these weights sum to nothing") ==
-        0);
+  CHECK(graph_faults("\"a\": {\"blend\": [[\"walk\", 0]]}").find("g.json:5:16: error: these weights sum to zero") == 0);
   CHECK(
       graph_faults("\"a\": {\"machine\": {\"start\": \"s\", \"states\": {\"s\": \"walk\"}, \"transitions\": [{\"to\": "
                    "\"t\", \"when\": {\"parameter\": \"v\", \"above\": 1}}]}}")

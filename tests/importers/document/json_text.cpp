@@ -50,7 +50,8 @@ TEST_CASE("of names given twice among very many each is told") {
 TEST_CASE("numbers are read to the bit, with the sign of 0 and the smallest there is") {
   const Document document =
       Document::parse(R"({"tweenfall": 1, "nodes": {"a": {"position": [-0, 5e-324, 1e-400]}, "b": {"position":
-      [-0.0, 9007199254740993, -123456789012345678901234567890]}, "c": {"position": [1.7976931348623157e308, 0.1, 1E2]}}})",
+      [-0.0, 9007199254740993, -123456789012345678901234567890]}, "c": {"position": [1E2, 0.1, 0]}},
+      "clips": {"k": {"tracks": {"c.x": [[0, 1.7976931348623157e308]]}}}})",
                       "a", {});
   const auto& nodes = document.stage().nodes;
   CHECK(std::signbit(nodes[0].rest.position.x()));
@@ -59,8 +60,9 @@ TEST_CASE("numbers are read to the bit, with the sign of 0 and the smallest ther
   CHECK(std::signbit(nodes[1].rest.position.x()));
   CHECK(nodes[1].rest.position.y() == 9007199254740992);
   CHECK(nodes[1].rest.position.z() == -123456789012345678901234567890.0);
-  CHECK(nodes[2].rest.position.x() == 1.7976931348623157e308);
-  CHECK(nodes[2].rest.position.z() == 100);
+  CHECK(nodes[2].rest.position.x() == 100);
+  const TrackCurve& curve = document.stage().clips.front().tracks.front().curve;
+  CHECK(std::get<Curve<double>>(curve).value(0) == 1.7976931348623157e308);
 }
 
 TEST_CASE("a comment ends where any line does, and at a zero byte, which is no text") {

@@ -16,6 +16,14 @@ json::Value item_of(const json::Value& list, std::size_t index) {
   return list.is(json::Value::Kind::list) && index < list.items().size() ? list.items()[index] : list;
 }
 
+// Of a node without a body it is its rest pose that may be too far for a stage.
+json::Value place_in_node(const Building& building, std::size_t index) {
+  const NodeDescription& node = building.stage.nodes[index];
+  if (node.body) return below(place_of_node(building, index), {"body"});
+  const bool is_far = !(node.rest.position.cwiseAbs().maxCoeff() <= 1e30);
+  return below(place_of_node(building, index), {is_far ? "position" : "scale"});
+}
+
 json::Value place_of_part(const Building& building, StageFault::Part part, std::size_t index) {
   const json::Value world = place_of_world(building);
   switch (part) {
@@ -26,7 +34,7 @@ json::Value place_of_part(const Building& building, StageFault::Part part, std::
     case StageFault::Part::clips:
       return below(building.root, {"clips"});
     case StageFault::Part::node:
-      return below(place_of_node(building, index), {"body"});
+      return place_in_node(building, index);
     case StageFault::Part::force:
       return fields::place_of_force(world, index);
     case StageFault::Part::joint:
