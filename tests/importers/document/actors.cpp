@@ -113,7 +113,7 @@ TEST_CASE("a control of no vehicle, or that says nothing, is told at its place")
        "i.json:2:34: error: there is no vehicle \"rovr\"; did you mean \"rover\"?");
   says(R"({"at": 1, "control": {}})", "i.json:2:22: error: a control needs a \"throttle\", a \"brake\" or a \"steer\"");
   says(R"({"at": 1, "control": {"brake": -0.5}})", "a number from 0 to 1");
-  CHECK(control_faults(R"({"at": 1, "control": {"brake": -0.5}})", "").find("a control says") == std::string::npos);
+  CHECK(control_faults(R"({"at": 1, "control": {"brake": -0.5}})", "").find("a control needs") == std::string::npos);
   says(R"({"at": 1, "control": {"steer": 1.5}})", "a number from -1 to 1");
   says(R"({"at": 1, "control": {"throtle": 1}})", "did you mean \"throttle\"?");
   says(R"({"at": 1, "control": {"brake": 1}})",
