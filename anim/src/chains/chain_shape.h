@@ -37,7 +37,7 @@ class ChainShape {
   void place_one(std::size_t i) noexcept;
   /// Places all from `from` on.
   void place(std::size_t from = 0) noexcept;
-  /// Turns a joint so that the direction `from` comes towards `to`, as far as its limits allow; moves all it carries.
+  /// Turns a joint so that the direction `from` comes toward `to`, as far as its limits allow; moves all it carries.
   void aim(std::size_t i, const Arrow& from, const Arrow& to) noexcept;
 
  private:

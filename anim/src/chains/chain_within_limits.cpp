@@ -148,7 +148,7 @@ double LimitedSolve::step(const Arrow& target) noexcept {
   return largest;
 }
 
-// Moves towards the middle of the limits, more for farther targets: from there all joints have room to turn.
+// Moves toward the middle of the limits, more for farther targets: from there all joints have room to turn.
 void LimitedSolve::move_off() noexcept {
   constexpr double half_way = 0.1;  // of the chain's length
   const Dual missing = distance(), square = missing * missing, reach = half_way * shape_.reach();

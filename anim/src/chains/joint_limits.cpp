@@ -39,13 +39,13 @@ Turning within_cone(const JointChain::Joint& joint, const ConeLimit& cone, const
   const Dual swing = angle_of(side.length, dot(bone, rest));
   const Dual twist = twist_about(joint.bone, turn), held = within(twist, cone.twist_low, cone.twist_high);
   if (swing.v <= cone.swing && held.v == twist.v) return turn;
-  Arrow towards = bone;
+  Arrow toward = bone;
   if (swing.v > cone.swing) {
     const Arrow away = side.any ? side.unit : Arrow{any_across(joint.bone), still};
     const elementary::SinCos edge = elementary::sin_cos(cone.swing);
-    towards = Dual(edge.cos) * rest + Dual(edge.sin) * away;
+    toward = Dual(edge.cos) * rest + Dual(edge.sin) * away;
   }
-  return arc(rest, towards, any_across(joint.bone)) * about(joint.bone, held);
+  return arc(rest, toward, any_across(joint.bone)) * about(joint.bone, held);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Freedom {
 };
 [[nodiscard]] Freedom freedom_of(const JointChain::Joint& joint, const Turning& turn) noexcept;
 
-/// A turn of the joint that brings the direction `from` towards `to`, as far as its limits allow.
+/// A turn of the joint that brings the direction `from` toward `to`, as far as its limits allow.
 [[nodiscard]] Turning turned_towards(const JointChain::Joint& joint, const Turning& turn, const Arrow& from,
                                      const Arrow& to) noexcept;
 

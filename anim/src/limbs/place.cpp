@@ -27,7 +27,7 @@ std::optional<BoundPlace> bound_place(const GraphPlace& described, const Place& 
     node = binder.node(described.node, place);
     if (node == no_node) return std::nullopt;
     if (carried != no_node && (node == carried || chains::is_below(binder.nodes(), node, carried))) {
-      binder.fault(place, "\"" + described.node + "\" is carried by the joints that turn towards it");
+      binder.fault(place, "\"" + described.node + "\" is carried by the joints that turn toward it");
       return std::nullopt;
     }
   }

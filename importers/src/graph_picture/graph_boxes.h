@@ -18,7 +18,7 @@ struct Rectangle {
     return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
   }
   [[nodiscard]] Vec2 center() const { return {(left + right) / 2, (top + bottom) / 2}; }
-  /// The point where the line from its center towards a point leaves it.
+  /// The point where the line from its center toward a point leaves it.
   [[nodiscard]] Vec2 border_toward(const Vec2& point) const;
 };
 

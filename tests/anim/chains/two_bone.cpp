@@ -42,7 +42,7 @@ TEST_CASE("a two-bone chain reaches every target within reach to 1e-12 of its le
   }
 }
 
-TEST_CASE("a two-bone chain goes as far as it can towards what is too far, and away from what is too near") {
+TEST_CASE("a two-bone chain goes as far as it can toward what is too far, and away from what is too near") {
   Random random(2);
   const Hierarchy nodes = leg();
   const TwoBoneChain chain(nodes, {"thigh", "shin", "foot"});

@@ -219,7 +219,7 @@ TEST_CASE("an operation that asks for what is not there is refused with its plac
   CHECK(faults_of(bones) ==
         "/poses/changed/base: there is no pose or clip \"wlak\"; did you mean \"walk\"?\n"
         "/poses/changed/two_bone/weight: a weight is 0 to 1; it is 2\n"
-        "/poses/changed/two_bone/target: \"foot.L\" is carried by the joints that turn towards it\n");
+        "/poses/changed/two_bone/target: \"foot.L\" is carried by the joints that turn toward it\n");
   bones = grip(ByParameter{"wieght"});
   bones.softness = 1;
   CHECK(faults_of(bones) ==

@@ -197,7 +197,7 @@ TEST_CASE("faults of operations are told with their places") {
   CHECK(tells("{\"base\": \"q\"}", "\"two_bone\""));
   CHECK(tells("{\"look_at\": {\"joints\": [\"a\"], \"target\": \"d\", \"wieght\": 1}}", "did you mean \"weight\""));
   CHECK(tells("{\"look_at\": {\"joints\": [], \"target\": \"d\"}}", "/look_at/joints"));
-  CHECK(tells("{\"look_at\": {\"joints\": [\"a\"], \"target\": \"c\"}}", "carried by the joints that turn towards it"));
+  CHECK(tells("{\"look_at\": {\"joints\": [\"a\"], \"target\": \"c\"}}", "carried by the joints that turn toward it"));
   CHECK(tells("{\"reach\": {\"joints\": [\"a\"], \"target\": \"d\"}}",
               "it has 1 joint; it needs at least one that turns and the end that it carries"));
   const auto reaching = [](const std::string& limit) {

@@ -69,7 +69,7 @@ class BlendPlane {
   std::vector<std::size_t> border_;
 };
 
-/// Entries on a plane that share it by gradient bands: from an entry towards each other one its influence falls
+/// Entries on a plane that share it by gradient bands: from an entry toward each other one its influence falls
 /// linearly from 1 to 0; the least of these counts, and the weights are the influences divided by their sum. More than
 /// three may show at once, two are enough, and all may lie on one line; weights change more smoothly than those of
 /// triangles, but do not reproduce the parameter: a blend of speeds does not have exactly the speed requested.

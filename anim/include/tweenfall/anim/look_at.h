@@ -3,7 +3,7 @@
 /// A joint that looks at a target, or a chain of joints that share the turning: heads, eyes, turrets, spines.
 ///
 /// The last joint is the one that looks; those before it do part of the turning, as a spine and a neck do. How far it
-/// turns away from the pose itself may be limited; it slows down towards the limit, and releases a target that comes
+/// turns away from the pose itself may be limited; it slows down toward the limit, and releases a target that comes
 /// directly behind, so that nothing snaps from one side to the other.
 
 #include <tweenfall/anim/node_ref.h>

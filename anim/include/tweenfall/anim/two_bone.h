@@ -54,7 +54,7 @@ class TwoBoneChain {
 /// The goal of the end of a chain.
 struct TwoBoneGoal {
   Sample<Vec3> target;  ///< place in the world, m, and its velocity
-  /// World direction towards which the middle goes, away from the line to the target; any length. If absent, or along
+  /// World direction toward which the middle goes, away from the line to the target; any length. If absent, or along
   /// that line, the middle stays on its side in the pose.
   std::optional<Sample<Vec3>> pole = std::nullopt;
   /// Share of the chain's length over which it slows down before it is fully stretched: 0 to 0.5. With 0 every target

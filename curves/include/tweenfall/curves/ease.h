@@ -81,7 +81,7 @@ class Ease {
   [[nodiscard]] static Ease squad();
   /// Rotations: the recursion of Barry and Goldman, 1988, with slerps. Anything else: catmull_rom, its counterpart.
   [[nodiscard]] static Ease barry_goldman();
-  /// An exact damped spring released at this key towards the next: undamped period in seconds, damping ratio. What is
+  /// An exact damped spring released at this key toward the next: undamped period in seconds, damping ratio. What is
   /// left of its motion at the next key is taken away smoothly over the span.
   /// @throws std::invalid_argument unless period lies in 1e-6 to 1e6 and damping_ratio in 0 to 1e6.
   [[nodiscard]] static Ease spring(double period, double damping_ratio);

@@ -22,7 +22,7 @@ enum class TangentKind {
   automatic,     ///< as the rule `smooth` would choose
   flat,          ///< zero
   given,         ///< as stated
-  vector,        ///< straight towards the next (previous) key
+  vector,        ///< straight toward the next (previous) key
   aligned,       ///< that of the key's other side
   mirrored,      ///< that of the key's other side, with a handle as long in time
   plateau,       ///< the neighbors' chord, but flat at a local extreme and beside an equal value

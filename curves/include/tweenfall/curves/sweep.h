@@ -37,7 +37,7 @@ struct LatheOptions {
   bool caps = true;  ///< close the gaps between profile and axis, and the cut faces of a partial turn
 };
 
-/// The profile, with x as distance from the y axis and y as height, turned about the y axis from x towards -z.
+/// The profile, with x as distance from the y axis and y as height, turned about the y axis from x toward -z.
 ///
 /// The outside is to the right of the profile's direction; if it would face inwards, the mesh is turned inside out.
 /// @throws std::invalid_argument for an endless or single-point profile, one that reaches beyond the axis (naming the

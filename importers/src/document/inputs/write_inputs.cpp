@@ -22,8 +22,8 @@ std::string string_text(std::string_view text) {
 /// Degrees that are read as exactly these radians, if there are any.
 double degrees_of(double angle) {
   const double near = degrees(angle);
-  for (const double towards : {HUGE_VAL, -HUGE_VAL})
-    for (double each = near, left = 4; left > 0; --left, each = std::nextafter(each, towards))
+  for (const double toward : {HUGE_VAL, -HUGE_VAL})
+    for (double each = near, left = 4; left > 0; --left, each = std::nextafter(each, toward))
       if (radians(each) == angle) return each;
   return near;
 }
