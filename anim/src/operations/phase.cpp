@@ -11,7 +11,7 @@ namespace tweenfall::graphs {
 
 namespace {
 
-constexpr double stops_a_second = 480;
+constexpr double stops_per_second = 480;
 
 std::variant<BlendLine, BlendPlane, BlendBands> space_of(const SpacePose& described) {
   if (described.by.size() == 2) {
@@ -165,9 +165,9 @@ Phase::Phase(MarkerSync sync, SpaceWeights weights, std::size_t number)
 
 double Phase::next_beat(double start, double after) const noexcept {
   if (weights_.flows()) {
-    const double passed = std::floor((after - start) * stops_a_second);
+    const double passed = std::floor((after - start) * stops_per_second);
     for (double count = std::max(passed, 0.0); count <= passed + 2; ++count)
-      if (const double stop = start + count / stops_a_second; stop > after) return stop;
+      if (const double stop = start + count / stops_per_second; stop > after) return stop;
   }
   return std::numeric_limits<double>::infinity();
 }

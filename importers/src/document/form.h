@@ -89,8 +89,8 @@ struct Form {
   std::function<const Form*(const json::Value&)> select{};
 
   // Writing
-  bool one_a_line = false;   // each member or item on its own line, however short
-  bool on_one_line = false;  // never broken
+  bool one_per_line = false;  // each member or item on its own line, however short
+  bool on_one_line = false;   // never broken
 
   [[nodiscard]] const Field* field(std::string_view name) const;
   [[nodiscard]] const Form* member(std::string_view name) const;  // form of a member's value; null: no such name

@@ -24,7 +24,7 @@ constexpr double most_of_particles = 4e9 / 3;
 /// Size of one node in one frame.
 constexpr double bytes_of_a_pose = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner) + sizeof(Color);
 
-double bytes_of_a_frame(const StageDescription& stage) {
+double bytes_per_frame(const StageDescription& stage) {
   double weights = 0;
   for (const Mesh& mesh : stage.meshes) weights += static_cast<double>(mesh.morphs.size()) * sizeof(double);
   double softs = 0;
@@ -36,12 +36,12 @@ double bytes_of_a_frame(const StageDescription& stage) {
 /// @throws UsageError saying how large the recording would be.
 double chosen_fps(const StageDescription& stage, const RunOptions& options, double until) {
   const double most_bytes = options.limit.value_or(options.usual_limit) * megabyte;
-  const double fps = options.fps.value_or(options.usual_fps), bytes = bytes_of_a_frame(stage) * (until * fps + 1);
+  const double fps = options.fps.value_or(options.usual_fps), bytes = bytes_per_frame(stage) * (until * fps + 1);
   if (bytes <= most_bytes) return fps;
   const std::string amount = brief_text(until) + " s at " + brief_text(fps) + " frames per second of " +
                              counted(stage.nodes.size(), "node") + " would be " + brief_text(bytes / megabyte) +
                              " MB of recording, above " + brief_text(most_bytes / megabyte);
-  const double fewer = until > 0 ? std::floor(1e3 * (most_bytes / bytes_of_a_frame(stage) - 1) / until) / 1e3 : 0;
+  const double fewer = until > 0 ? std::floor(1e3 * (most_bytes / bytes_per_frame(stage) - 1) / until) / 1e3 : 0;
   if (options.fps || !(fewer > 0))
     throw UsageError(amount + "; ask for less with --until or --fps, or for more with --limit");
   say(options.file + ": note: " + amount + "; it is taken at " + brief_text(fewer) +

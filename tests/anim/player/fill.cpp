@@ -151,6 +151,6 @@ TEST_CASE("events of a play are the same, whatever it fills") {
     std::string told;
     for (const FiredEvent& event : Player({.at = 2, .fill = fill}, clip).events_between(clip, 0, 9, true))
       told += event.name + " ";
-    CHECK(told == "first long last long ");
+    CHECK(told == "first long long last ");
   }
 }

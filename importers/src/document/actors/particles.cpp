@@ -105,7 +105,7 @@ void read_emitters(const json::Value& value, ParticlesDescription& particles, Bu
 
 const Form* forces_form(FormStore& store, const ValueForms& values) {
   Form forces = list_of(forces::form(store, values), "a list of forces", 0);
-  forces.one_a_line = true;
+  forces.one_per_line = true;
   return store.add(std::move(forces));
 }
 

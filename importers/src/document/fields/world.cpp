@@ -37,7 +37,7 @@ const Form* sleep_form(FormStore& store, const ValueForms& values) {
 
 const Form* forces_form(FormStore& store, const ValueForms& values) {
   Form forces = list_of(forces::form(store, values), "a list of forces", 0);
-  forces.one_a_line = true;
+  forces.one_per_line = true;
   return store.add(std::move(forces));
 }
 

@@ -15,7 +15,7 @@ namespace {
 const Form* import_form(FormStore& store, const ValueForms& values) {
   Form imports = object_of("an object with files by the name they get here", {});
   imports.definition = "import";
-  imports.one_a_line = true;
+  imports.one_per_line = true;
   Form path = *values.name;
   path.what = "the path of a file";
   imports.others = store.add(std::move(path));
@@ -40,7 +40,7 @@ struct Grammar {
     const auto named = [&](const Form* form, const std::string& what) { return store.add(map_of(form, what)); };
     const auto rows_of = [&](const Form* form, const std::string& what) {
       Form list = list_of(form, what, 0);
-      list.one_a_line = true;
+      list.one_per_line = true;
       return store.add(std::move(list));
     };
     Form version;
@@ -86,7 +86,7 @@ struct Grammar {
           false,
           "[]",
           {"rules", "handoffs", "hand_off", "hand-off", "triggers"}}});
-    document.one_a_line = true;
+    document.one_per_line = true;
     root = store.add(std::move(document));
   }
 };

@@ -30,14 +30,14 @@ const Form* event_form(FormStore& store, const ValueForms& values) {
 
 const Form* clip_form(FormStore& store, const ValueForms& values) {
   Form events = list_of(event_form(store, values), "a list of events", 0);
-  events.one_a_line = true;
+  events.one_per_line = true;
   Form clip = object_of("a clip: {\"duration\", \"loop\", \"tracks\", \"events\"}",
                         {{"duration", values.length_of_time, "absent: the latest key or event"},
                          {"loop", fields::loop_form(store, values), "absent: once"},
                          {"tracks", tracks_form(store, values), "", false, "{}"},
                          {"events", store.add(std::move(events)), "", false, "[]", {"markers", "notifies", "cues"}}});
   clip.definition = "clip";
-  clip.one_a_line = true;
+  clip.one_per_line = true;
   return store.add(std::move(clip));
 }
 

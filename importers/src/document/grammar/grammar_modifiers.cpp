@@ -93,7 +93,7 @@ const Form* modifiers_form(FormStore& store, const ValueForms& values) {
   one.together = {exactly_one(std::move(names))};
   one.definition = "modifier";
   Form list = list_of(store.add(std::move(one)), "a list of modifiers, the innermost first");
-  list.one_a_line = true;
+  list.one_per_line = true;
   list.definition = "modifiers";
   return store.add(std::move(list));
 }

@@ -100,7 +100,7 @@ class TrackForms {
     key.definition = "key-" + kind.name;
     Form list = list_of(store_.add(std::move(key)), "a list of keys");
     list.definition = "keys-" + kind.name;
-    list.one_a_line = true;
+    list.one_per_line = true;
     return store_.add(std::move(list));
   }
 
@@ -448,7 +448,7 @@ const Form* tracks_form(FormStore& store, const ValueForms& values) {
   TrackForms make(store, values);
   Form tracks = object_of("an object with tracks by name", {});
   tracks.definition = "tracks";
-  tracks.one_a_line = true;
+  tracks.one_per_line = true;
   tracks.instead = member_meant;
   tracks.endings = {
       {".position", make.either({"position",

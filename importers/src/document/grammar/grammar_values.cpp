@@ -118,7 +118,7 @@ Form list_of(const Form* element, std::string what, std::size_t fewest, std::siz
 Form map_of(const Form* element, std::string what) {
   Form map = object_of(std::move(what), {});
   map.others = element;
-  map.one_a_line = true;
+  map.one_per_line = true;
   map.instead = member_meant;
   map.name_pattern = "^[\\s\\S]+$";
   map.name_fault = [](std::string_view name) { return std::string(name.empty() ? "a name is not empty" : ""); };

@@ -79,7 +79,7 @@ const Form* inputs_form(FormStore& store, const ValueForms& values) {
   input.fewest = 2;
   input.on_one_line = true;
   Form list = list_of(store.add(std::move(input)), "a list of inputs", 0);
-  list.one_a_line = true;
+  list.one_per_line = true;
   return store.add(std::move(list));
 }
 
@@ -104,7 +104,7 @@ const Form* reactions_form(FormStore& store, const ValueForms& values) {
   reaction.fewest = 2;
   reaction.on_one_line = true;
   Form list = list_of(store.add(std::move(reaction)), "a list of reactions", 0);
-  list.one_a_line = true;
+  list.one_per_line = true;
   return store.add(std::move(list));
 }
 
@@ -248,7 +248,7 @@ void tell_events_of_no_clip(const json::Value& value, Building& building) {
 
 const Form* form(FormStore& store, const ValueForms& values) {
   Form graph = graph_table().listing_form(store, values);
-  graph.one_a_line = true;
+  graph.one_per_line = true;
   graph.definition = "graph";
   return store.add(map_of(store.add(std::move(graph)), "an object with graphs by name"));
 }

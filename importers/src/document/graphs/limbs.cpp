@@ -202,7 +202,7 @@ const Table<FeetPose::Foot>& foot_table() {
 const Form* legs_form(FormStore& store, const ValueForms& values) {
   Form leg = foot_table().listing_form(store, values);
   Form list = list_of(store.add(std::move(leg)), "a list of legs", 1, most_feet_placed);
-  list.one_a_line = true;
+  list.one_per_line = true;
   return store.add(std::move(list));
 }
 

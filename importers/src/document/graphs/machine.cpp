@@ -145,7 +145,7 @@ const Form* transitions_form(FormStore& store, const ValueForms& values) {
   transition.together = {at_most_one({"fade", "settle"}), at_most_one({"ease", "settle"})};
   transition.definition = "transition";
   Form list = list_of(store.add(std::move(transition)), "a list of transitions", 0);
-  list.one_a_line = true;
+  list.one_per_line = true;
   return store.add(std::move(list));
 }
 
@@ -174,7 +174,7 @@ const Table<MachinePose>& machine_table() {
 
 const Form* machine_form(FormStore& store, const ValueForms& values) {
   Form machine = machine_table().listing_form(store, values);
-  machine.one_a_line = true;
+  machine.one_per_line = true;
   machine.definition = "machine";
   return store.add(std::move(machine));
 }

@@ -41,7 +41,7 @@ const Form* layers_form(FormStore& store, const ValueForms& values) {
   Form layer = layer_table().listing_form(store, values);
   layer.together = {exactly_one({"over", "add"}), {Together::Rule::first_needs_second, {"reference", "add"}}};
   Form list = list_of(store.add(std::move(layer)), "a list of layers, the lowest first");
-  list.one_a_line = true;
+  list.one_per_line = true;
   return store.add(std::move(list));
 }
 

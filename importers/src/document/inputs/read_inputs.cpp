@@ -274,7 +274,7 @@ struct InputGrammar {
     input.together = {exactly_one(names)};
     input.on_one_line = true;
     Form list = list_of(store.add(std::move(input)), "a list of inputs in order of time", 0);
-    list.one_a_line = true;
+    list.one_per_line = true;
     Form version;
     version.kind = Form::Kind::number;
     version.what = "1, the version that this reader reads";

@@ -102,7 +102,7 @@ const fields::Table<PinsBeingRead>& pin_table() {
 const Form* pins_form(FormStore& store, const ValueForms& values) {
   const Form* const pin = store.add(pin_table().listing_form(store, values));
   Form pins = list_of(pin, "a list of pins", 0);
-  pins.one_a_line = true;
+  pins.one_per_line = true;
   return store.add(std::move(pins));
 }
 

@@ -63,7 +63,7 @@ const Form* outputs_form(FormStore& store, const ValueForms& values) {
   tracks.others = store.add(choice_of(
       "an expression of t and the state, or a list of 2 to 4",
       {store.add(expression_form()), values.number, store.add(list_of(value, "a list of 2 to 4 expressions", 2, 4))}));
-  tracks.one_a_line = true;
+  tracks.one_per_line = true;
   return store.add(std::move(tracks));
 }
 

@@ -128,13 +128,13 @@ class Writer {
  public:
   void write(const Form* form, const json::Value& value, std::size_t indent, std::size_t column) {
     const Written what = written(form, value);
-    const bool on_one_line = what.form && what.form->on_one_line, one_a_line = what.form && what.form->one_a_line;
+    const bool on_one_line = what.form && what.form->on_one_line, one_per_line = what.form && what.form->one_per_line;
     const std::size_t room = line_width - std::min(column, line_width);
     if (on_one_line || !has_parts(what)) {
       append_line(out, what, static_cast<std::size_t>(-1));
       return;
     }
-    if (!one_a_line) {
+    if (!one_per_line) {
       if (const std::string line = line_of(what, room); line.size() <= room) {
         out += line;
         return;
