@@ -79,6 +79,7 @@ using Change = std::variant<change::None, change::Release, change::Recover, chan
 struct Command {
   double time = 0;
   Change change;
+  int at_once = 0;  ///< of the blows that fall at its time, how many have fallen when it is made
 };
 
 /// @param step  of the stage, s

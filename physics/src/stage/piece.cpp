@@ -36,8 +36,9 @@ void handle_instant(StageState& state, double step, std::span<const Command> com
   end_pins(state, from, happenings);
   follow_played_tracks(state, step, happenings);
   follow_ramps(state);
-  for (const Command& command : commands_after(commands, from)) {
+  for (const Command& command : commands_after(commands, state.since)) {
     if (command.time > state.handled) break;
+    if (command.at_once != state.at_once) continue;
     if (!arrived) arrived = state;
     make_change(state, command, step, happenings);
   }
@@ -130,6 +131,7 @@ void take_piece(StageState& state, double step, std::span<const Command> command
   const std::size_t first = happenings.size();
   if (state.steps < 0) {
     state.steps = 0;
+    state.since = state.handled;
     handle_instant(state, step, commands, happenings, arrived);
   } else {
     const double end = static_cast<double>(state.steps + 1) * step, last = end - sliver;
@@ -138,8 +140,15 @@ void take_piece(StageState& state, double step, std::span<const Command> command
     if (capped) to = infinity;
     if (!(to < last)) to = end;
     const auto coming = commands_after(commands, state.handled);
+    const double began = state.time;
     move_to_change(state, to, coming.empty() || !(coming.front().time < last) ? infinity : coming.front().time, step,
                    happenings);
+    if (state.time > began) {
+      state.since = state.handled;
+      state.at_once = 0;
+    } else {
+      ++state.at_once;
+    }
     if (own && !capped) ++state.splits;
     if (state.time == end) {
       if (capped) report_cap(state, happenings);

@@ -187,8 +187,10 @@ struct Happening {
 
 struct StageState {
   double time = 0;
-  std::int64_t steps = -1;  ///< whole steps taken; -1 before instant 0 has been handled
-  double handled = -1;      ///< everything due up to here has been done; a sliver after `time`
+  std::int64_t steps = -1;  ///< whole steps taken; -1 before the instant 0 has been handled
+  double handled = -1;      ///< all that was due up to here has been done; a sliver after `time`
+  double since = -1;        ///< what was due up to here was done before it came to `time`
+  int at_once = 0;          ///< blows that fell at `time` since it came there, each in a piece that took no time
   int splits = 0;           ///< of the current step, by rules and jumps
   World world;
   Vec3 gravity{0, 0, 0};

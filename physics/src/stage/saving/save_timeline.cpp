@@ -142,12 +142,20 @@ std::shared_ptr<const StagedJoints> joints_of(const std::vector<StagedJoint>& li
   return joints;
 }
 
-/// The state at the start, with all changes of its cast up to `handled`.
-StageState cast_at(const StageState& initial, const std::vector<Command>& commands, double handled, double step) {
+/// When a state was saved.
+struct SavedInstant {
+  double time = 0, since = 0;
+  int at_once = 0;
+};
+
+/// The state at the start, with all changes of its cast up to an instant.
+StageState cast_at(const StageState& initial, const std::vector<Command>& commands, const SavedInstant& saved,
+                   double step) {
   StageState state = initial;
   std::vector<Happening> unheard;
   for (const Command& command : commands) {
-    if (command.time > handled) break;
+    if (command.time > saved.time + sliver) break;
+    if (command.time > saved.since && command.at_once > saved.at_once) continue;
     if (!is_of_cast(command.change)) continue;
     state.time = std::max(0.0, command.time);
     make_change(state, command, step, unheard);
@@ -167,7 +175,7 @@ std::vector<std::byte> Timeline::save() const {
   const std::uint64_t described = fingerprint(description);
   visit(described, now_, between, commands_, happenings_);
   visit.places(told_, of_piece_);
-  visit(events, handoffs, state.time);
+  visit(events, handoffs, state.time, state.since, state.at_once);
   each_moving_field(state, visit);
   const std::vector<std::byte> world = state.world.save();
   std::vector<StagedJoint> joints = state.joints->list;
@@ -182,7 +190,8 @@ void Timeline::load(std::span<const std::byte> saved) {
   saving::ByteReader in(saving::opened(stage_envelope, saved), "stage");
   const saving::Walk<saving::ByteReader> visit(in);
   std::uint64_t described = 0;
-  double now = 0, time = 0;
+  double now = 0;
+  SavedInstant instant;
   bool between = false;
   std::vector<Command> commands;
   std::vector<Happening> happenings;
@@ -194,14 +203,18 @@ void Timeline::load(std::span<const std::byte> saved) {
     throw std::invalid_argument("this saved stage has another description than the stage that would load it");
   visit(now, between, commands, happenings);
   visit.places(told, of_piece);
-  visit(past_events, past_handoffs, time);
-  require(std::isfinite(now) && std::isfinite(time) && now >= 0 && time >= 0, "time");
+  visit(past_events, past_handoffs, instant.time, instant.since, instant.at_once);
+  require(std::isfinite(now) && std::isfinite(instant.time) && now >= 0 && instant.time >= 0, "time");
+  require(instant.since < instant.time + sliver && instant.at_once >= 0, "time: it is not near that of its state");
   require(told <= happenings.size() && of_piece <= happenings.size(), "list of what happened");
   require(std::ranges::is_sorted(commands, {}, &Command::time), "list of changes");
-  for (const Command& command : commands) require(std::isfinite(command.time), "time of a change");
+  for (const Command& command : commands)
+    require(std::isfinite(command.time) && command.at_once >= 0, "time of a change");
 
-  StageState state = cast_at(initial_, commands, time + sliver, description.step);
+  StageState state = cast_at(initial_, commands, instant, description.step);
   each_moving_field(state, visit);
+  state.since = instant.since;
+  state.at_once = instant.at_once;
   state.handled = state.time + sliver;
   std::vector<StagedJoint> joints;
   std::vector<std::byte> world;

@@ -275,8 +275,8 @@ void each_field(T& told, const Visit& visit) {
 
 template <Is<staging::Command> T, class Visit>
 void each_field(T& command, const Visit& visit) {
-  auto& [time, change] = command;
-  visit(time, change);
+  auto& [time, change, at_once] = command;
+  visit(time, change, at_once);
 }
 
 // What happened

@@ -121,7 +121,7 @@ void Timeline::command(Change change) {
   const std::shared_ptr<const StageState> aside = ahead ? std::make_shared<const StageState>(to_) : nullptr;
   const double began = from_.time;
   reach_now();
-  Command command{now_, std::move(change)};
+  Command command{now_, std::move(change), to_.at_once};
   std::vector<Happening> caused;
   try {
     make_change(to_, command, description.step, caused);
@@ -134,8 +134,11 @@ void Timeline::command(Change change) {
     happenings_.insert(happenings_.end(), coming.begin(), coming.end());
     throw;
   }
-  // A change made in the past starts another future.
-  while (!commands_.empty() && commands_.back().time > to_.handled) commands_.pop_back();
+  // A change made in the past begins another future.
+  const auto is_to_come = [this](const Command& other) {
+    return other.time > to_.handled || (other.time > to_.since && other.at_once > to_.at_once);
+  };
+  while (!commands_.empty() && is_to_come(commands_.back())) commands_.pop_back();
   commands_.insert(std::ranges::upper_bound(commands_, now_, {}, &Command::time), std::move(command));
   to_.jumped = true;
   for (Happening& happening : caused) {
