@@ -1,4 +1,5 @@
 #include "physics/handoff/scenes.h"
+#include "processor_time.h"
 
 #include <tweenfall/physics/stage/recording.h>
 
@@ -116,6 +117,54 @@ TEST_CASE("a play asked for a loop of too many events is refused at once, and go
                        doctest::Contains("more than a million events"), std::invalid_argument);
   stage.advance(1);
   CHECK(stage.events().size() == 2);
+}
+
+TEST_CASE(
+    "tens of thousands of events in one step take a time that grows with their number, whatever is called among them") {
+  StageDescription description = falling_ball();
+  description.step = 1.0 / 60;
+  Clip buzz{.name = "buzz", .duration = 4e-7, .loop = {LoopMode::repeat, 0}}, score{.name = "score", .duration = 1};
+  buzz.events = {{.from = 0, .to = 0, .name = "a name that is too long to be kept within a string"}};
+  for (int i = 1; i <= 20'000; ++i) score.events.push_back({.from = i / 40e3, .to = i / 40e3, .name = "note"});
+  description.clips = {buzz, score};
+  description.plays = {{.clip = 0}, {.clip = 1, .at = 10}};
+  Stage stage(description);
+  stage.advance_to(1.7 / 60);
+  const std::size_t before = stage.events().size();
+  CHECK(before > 60'000);
+  const double begin = test::processor_seconds();
+  stage.apply_impulse(0, Vec3(0, 0, 1e-3), Vec3(0, 1, 0));
+  CHECK(stage.events().size() == before);
+  stage.ask("score", playing::Start{});
+  stage.ask("score", playing::Seek{.time = 0.9, .events = true});
+  CHECK(stage.events().size() == before + 20'000);
+  stage.advance_to(2.0 / 60);
+  CHECK(stage.events().size() > before + 30'000);
+  CHECK(std::ranges::is_sorted(stage.events(), {}, &StageEvent::time));
+  CHECK(test::processor_seconds() - begin < 3);
+}
+
+TEST_CASE(
+    "a rule that a contact pulls and overlap vetoes does not hold the stage up, and fires when the way is clear") {
+  StageDescription description = falling_ball();
+  description.world.gravity = Vec3(0, 0, 0);
+  description.nodes[0].body->twist.linear = Vec3(0, -3, 0);
+  description.nodes.push_back(
+      {.name = "drum", .body = BodyDescription{.shape = {Sphere{0.3}}, .mass = 2.0, .drive = Drive::keyed()}});
+  description.nodes.push_back({.name = "wall",
+                               .rest = {.position = {0, -0.5, 0}},
+                               .body = BodyDescription{.shape = {Sphere{0.3}}, .fixed = true}});
+  Rule rule{.bodies = {"drum"}, .to = Drive::free(), .take_over = {.overlap = TakeOver::Overlap::veto}};
+  rule.when.triggers = {when::ContactHit{.impulse = 0.1}};
+  description.rules = {rule};
+  Stage stage(description);
+  stage.advance_to(0.5);
+  CHECK(stage.handoffs().empty());
+  CHECK(std::ranges::count(stage.events(), std::string("vetoed"), &StageEvent::name) > 0);
+  stage.remove(2);
+  stage.advance_to(0.6);
+  REQUIRE(stage.handoffs().size() == 1);
+  CHECK(stage.handoffs()[0].cause == Cause::contact);
 }
 
 TEST_CASE("a rule to a drive or a velocity that cannot be is refused when it is armed, and not when it fires") {

@@ -313,7 +313,8 @@ bool fire_at_impact(StageState& state, double end, double step, std::vector<Happ
   std::vector<char> watched(state.bodies.size(), 0);
   bool any = false;
   for (const ArmedRule& armed : state.armed) {
-    if (!has_contact_trigger(*state.rules[armed.rule]) || !waits(state, armed)) continue;
+    // What was vetoed is tried again at each instant, blow or none.
+    if (!has_contact_trigger(*state.rules[armed.rule]) || !waits(state, armed) || armed.vetoed) continue;
     if (state.world.owner(state.bodies[armed.body].id) != Owner::keyed) continue;
     watched[armed.body] = 1;
     any = true;
@@ -329,7 +330,8 @@ bool fire_at_impact(StageState& state, double end, double step, std::vector<Happ
     std::optional<Touch> touch;
     for (std::size_t i = 0; i < there.armed.size(); ++i) {
       ArmedRule& armed = there.armed[i];
-      if (armed.body != meeting.body || !has_contact_trigger(*there.rules[armed.rule]) || !waits(there, armed))
+      if (armed.body != meeting.body || !has_contact_trigger(*there.rules[armed.rule]) || !waits(there, armed) ||
+          armed.vetoed)
         continue;
       const StageState trial = tried(there, i, there.time + step / 16, step);
       ArmedRule after = trial.armed[i];
@@ -363,7 +365,9 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
     step_world(state, end, step, happenings);
     return;
   }
-  if (fire_at_impact(state, end, step, happenings)) return;
+  // Rules that take a body and give it back at one and the same contact would do so for ever.
+  const std::size_t most_at_once = 8 + 2 * state.armed.size();
+  if (static_cast<std::size_t>(state.at_once) < most_at_once && fire_at_impact(state, end, step, happenings)) return;
 
   // A body that is pressed without a blow, or struck through others, is judged by its impulse in the piece, and freed
   // at the piece's start. Freeing one may strike the next, so this repeats until no more are freed; each rule fires
