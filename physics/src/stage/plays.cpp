@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "stage/stage_data.h"
+#include "stage/time/twins.h"
 
 namespace tweenfall::staging {
 
@@ -39,17 +40,14 @@ namespace {
 /// What graphs report at an instant that has been handled, because what they lie on or their input has changed there.
 std::vector<FiredEvent> news_of_graphs(const Animation& before, const Animation& after, double instant) {
   const double earlier = std::nextafter(instant, -infinity);
-  std::vector<GraphEvent> told = before.graph_events(earlier, instant);
+  const std::vector<GraphEvent> told = before.graph_events(earlier, instant);
+  std::vector<GraphEvent> now = after.graph_events(earlier, instant);
+  take_out_twins(now, std::span<const GraphEvent>(told), [](const GraphEvent& event, const GraphEvent& each) {
+    return each.name == event.name && each.data == event.data && each.clip == event.clip && each.kind == event.kind;
+  });
   std::vector<FiredEvent> news;
-  for (GraphEvent& event : after.graph_events(earlier, instant)) {
-    const auto twin = std::ranges::find_if(told, [&](const GraphEvent& each) {
-      return each.name == event.name && each.data == event.data && each.clip == event.clip && each.kind == event.kind;
-    });
-    if (twin != told.end())
-      told.erase(twin);
-    else
-      news.push_back({event.time, std::move(event.name), std::move(event.data), event.clip, event.kind});
-  }
+  for (GraphEvent& event : now)
+    news.push_back({event.time, std::move(event.name), std::move(event.data), event.clip, event.kind});
   return news;
 }
 

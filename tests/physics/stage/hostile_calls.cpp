@@ -141,7 +141,7 @@ TEST_CASE(
   stage.advance_to(2.0 / 60);
   CHECK(stage.events().size() > before + 30'000);
   CHECK(std::ranges::is_sorted(stage.events(), {}, &StageEvent::time));
-  CHECK(test::processor_seconds() - begin < 3);
+  CHECK(test::processor_seconds() - begin < 1.5);
 }
 
 TEST_CASE(

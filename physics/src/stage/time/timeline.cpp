@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stage/time/twins.h"
+
 namespace tweenfall::staging {
 
 Timeline::Timeline(StageDescription described)
@@ -98,15 +100,14 @@ void Timeline::reach_now() {
   const std::vector<Command> stop{{now_, change::None{}}};
   std::optional<StageState> unchanged;
   while (piece.time < now_) take(piece, stop, again, unchanged);
-  // What the piece has reported is not reported again.
-  for (std::size_t i = of_piece_; i < told_; ++i) {
-    const auto* told = std::get_if<StageEvent>(&happenings_[i].what);
-    const auto twin = std::ranges::find_if(again, [&](const Happening& other) {
-      const auto* event = std::get_if<StageEvent>(&other.what);
-      return told && event && event->time == told->time && event->name == told->name && event->nodes == told->nodes;
-    });
-    if (twin != again.end()) again.erase(twin);
-  }
+  // What the piece has told stays told and is not told again.
+  std::vector<StageEvent> told;
+  for (std::size_t i = of_piece_; i < told_; ++i)
+    if (const auto* event = std::get_if<StageEvent>(&happenings_[i].what)) told.push_back(*event);
+  take_out_twins(again, std::span<const StageEvent>(told), [](const Happening& other, const StageEvent& one) {
+    const auto* event = std::get_if<StageEvent>(&other.what);
+    return event && event->time == one.time && event->name == one.name && event->nodes == one.nodes;
+  });
   happenings_.resize(kept);
   happenings_.insert(happenings_.end(), std::make_move_iterator(again.begin()), std::make_move_iterator(again.end()));
   to_ = std::move(piece);
@@ -141,14 +142,20 @@ void Timeline::command(Change change) {
   while (!commands_.empty() && is_to_come(commands_.back())) commands_.pop_back();
   commands_.insert(std::ranges::upper_bound(commands_, now_, {}, &Command::time), std::move(command));
   to_.jumped = true;
-  for (Happening& happening : caused) {
-    const auto place = std::ranges::upper_bound(happenings_.begin() + static_cast<std::ptrdiff_t>(told_),
-                                                happenings_.end(), happening.time, {}, &Happening::time);
-    if (place - happenings_.begin() < static_cast<std::ptrdiff_t>(of_piece_)) ++of_piece_;
-    happenings_.insert(place, std::move(happening));
-  }
-  // A moment after the instant on which it acted, what is shown lies in the piece that starts there.
+  put_in(std::move(caused));
+  // A moment after the instant on which it acted, what is shown lies in the piece that begins there.
   if (!telling_) run_to(now_, true);
+}
+
+/// Among what is not told yet, each behind all that is not later.
+void Timeline::put_in(std::vector<Happening> caused) {
+  std::ranges::stable_sort(caused, {}, &Happening::time);
+  const double last = of_piece_ > told_ ? happenings_[of_piece_ - 1].time : -infinity;
+  of_piece_ += static_cast<std::size_t>(std::ranges::lower_bound(caused, last, {}, &Happening::time) - caused.begin());
+  const auto count = static_cast<std::ptrdiff_t>(happenings_.size());
+  happenings_.insert(happenings_.end(), std::make_move_iterator(caused.begin()), std::make_move_iterator(caused.end()));
+  std::ranges::inplace_merge(happenings_.begin() + static_cast<std::ptrdiff_t>(told_), happenings_.begin() + count,
+                             happenings_.end(), {}, &Happening::time);
 }
 
 std::vector<TimedInput> Timeline::inputs() const {

@@ -52,6 +52,7 @@ class Timeline {
   void next_piece();
   void tell(bool aloud, double until);
   void keep_told();
+  void put_in(std::vector<Happening> caused);
   void reach_now();
 
   StageState initial_;
