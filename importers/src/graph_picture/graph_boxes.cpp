@@ -13,9 +13,7 @@ constexpr const char* box_ink = "#24292f";
 constexpr const char* box_pale = "#57606a";
 constexpr const char* arrow_line = "#8c959f";
 
-Vec2 on_curve(const Vec2& from, const Vec2& control, const Vec2& to, double t) {
-  return (1 - t) * (1 - t) * from + 2 * t * (1 - t) * control + t * t * to;
-}
+constexpr int points_on_arrow = 80;
 
 }  // namespace
 
@@ -58,7 +56,8 @@ void draw_box(SvgWriter& svg, const Rectangle& box, const std::string& name, con
   svg.close();
 }
 
-void draw_arrow(SvgWriter& svg, const Vec2& from, const Vec2& control, const Vec2& to) {
+void draw_arrow(SvgWriter& svg, const Arrow& arrow) {
+  const auto& [from, control, to] = arrow;
   Vec2 way = to - control;
   way /= std::max(way.norm(), 1e-9);
   const Vec2 across(-way.y(), way.x()), foot = to - 9 * way;
@@ -72,21 +71,43 @@ void draw_arrow(SvgWriter& svg, const Vec2& from, const Vec2& control, const Vec
                        {"fill", arrow_line}});
 }
 
-void Labels::draw(SvgWriter& svg, const Vec2& from, const Vec2& control, const Vec2& to, const std::string& first,
-                  const std::string& second) {
+Vec2 Arrow::at(double t) const {
+  return (1 - t) * (1 - t) * from + 2 * t * (1 - t) * control + t * t * to;
+}
+
+Labels::Labels(std::vector<Rectangle> taken, std::vector<Arrow> arrows)
+    : taken_(std::move(taken)), arrows_(std::move(arrows)) {
+  for (const Arrow& arrow : arrows_) {
+    std::vector<Vec2>& points = points_.emplace_back();
+    for (int i = 0; i <= points_on_arrow; ++i) points.push_back(arrow.at(static_cast<double>(i) / points_on_arrow));
+  }
+}
+
+std::size_t Labels::crossed(const Rectangle& place, std::size_t own) const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (i != own)
+      count += std::ranges::any_of(points_[i], [&](const Vec2& p) { return place.overlaps(around(p, 0, 0)); }) ? 1 : 0;
+  return count;
+}
+
+void Labels::draw(SvgWriter& svg, std::size_t arrow, const std::string& first, const std::string& second) {
   constexpr double widest = 230;
   const std::string one = shortened(first, widest), two = shortened(second, widest);
   const double width = 1.1 * std::max(text_width(one), text_width(two)) + 8, height = 30;
-  Rectangle best = around(on_curve(from, control, to, 0.5), width, height);
-  [&] {
-    for (const double shift : {0.0, -16.0, 16.0, -32.0, 32.0, -48.0, 48.0})
-      for (const double t : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8}) {
-        const Rectangle place = around(on_curve(from, control, to, t) + Vec2(0, shift), width, height);
-        if (std::ranges::any_of(taken_, [&](const Rectangle& other) { return place.overlaps(other); })) continue;
-        best = place;
-        return;
-      }
-  }();
+  const Arrow& own = arrows_[arrow];
+  Rectangle best = around(own.at(0.5), width, height);
+  std::size_t fewest = arrows_.size();
+  for (const double shift : {0.0, -16.0, 16.0, -32.0, 32.0, -48.0, 48.0})
+    for (const double t : {0.5, 0.45, 0.55, 0.4, 0.6, 0.35, 0.65, 0.3, 0.7, 0.25, 0.75, 0.2, 0.8, 0.15, 0.85}) {
+      const Rectangle place = around(own.at(t) + Vec2(0, shift), width, height);
+      if (fewest == 0 || (shift != 0 && fewest < arrows_.size())) break;  // better crossed than beside its own
+      if (std::ranges::any_of(taken_, [&](const Rectangle& other) { return place.overlaps(other); })) continue;
+      const std::size_t others = crossed(place, arrow);
+      if (others >= fewest) continue;
+      fewest = others;
+      best = place;
+    }
   taken_.push_back(best);
   const Vec2 middle = best.center();
   svg.open("g");

@@ -32,20 +32,29 @@ struct BoxStyle {
 void draw_box(SvgWriter& svg, const Rectangle& box, const std::string& name, const std::string& words,
               const BoxStyle& style);
 
-/// From `from` by way of `control` to `to`, with a head there.
-void draw_arrow(SvgWriter& svg, const Vec2& from, const Vec2& control, const Vec2& to);
+/// From `from` by way of `control` to `to`.
+struct Arrow {
+  Vec2 from, control, to;
 
-/// Places texts so that they do not overlap.
+  [[nodiscard]] Vec2 at(double t) const;  ///< 0 to 1
+};
+/// With a head where it ends.
+void draw_arrow(SvgWriter& svg, const Arrow& arrow);
+
+/// Texts that stand in each other's way nowhere, each on an arrow of its own and, where there is room, on no other's.
 class Labels {
  public:
-  explicit Labels(std::vector<Rectangle> taken) : taken_(std::move(taken)) {}
+  Labels(std::vector<Rectangle> taken, std::vector<Arrow> arrows);
 
-  /// Two lines near the middle of a curve, the second paler.
-  void draw(SvgWriter& svg, const Vec2& from, const Vec2& control, const Vec2& to, const std::string& first,
-            const std::string& second);
+  /// Two lines near the middle of an arrow, the second paler.
+  void draw(SvgWriter& svg, std::size_t arrow, const std::string& first, const std::string& second);
 
  private:
+  [[nodiscard]] std::size_t crossed(const Rectangle& place, std::size_t own) const;
+
   std::vector<Rectangle> taken_;
+  std::vector<Arrow> arrows_;
+  std::vector<std::vector<Vec2>> points_;  // on each arrow
 };
 
 }  // namespace tweenfall::plotting

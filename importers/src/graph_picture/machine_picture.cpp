@@ -13,7 +13,7 @@ namespace {
 constexpr double state_width = 132, state_height = 42;
 
 struct Way {
-  Vec2 from, control, to;
+  Arrow arrow;
   std::string when, how;
 };
 
@@ -23,7 +23,7 @@ Way way_between(const Rectangle& a, const Rectangle& b, std::size_t already) {
   const double length = std::max(way.norm(), 1.0);
   const Vec2 right(-way.y() / length, way.x() / length);
   const Vec2 control = (a.center() + b.center()) / 2 + (46 + 44 * static_cast<double>(already)) * right;
-  return {a.border_toward(control), control, b.border_toward(control), {}, {}};
+  return {{a.border_toward(control), control, b.border_toward(control)}, {}, {}};
 }
 
 // From a box to itself, outside the ellipse.
@@ -31,7 +31,7 @@ Way around_itself(const Rectangle& box, const Vec2& outward, std::size_t already
   const double far = 92 + 40 * static_cast<double>(already);
   const Vec2 middle = box.center(), control = middle + far * outward;
   const Vec2 across(-outward.y(), outward.x());
-  return {box.border_toward(control + 60 * across), control, box.border_toward(control - 60 * across), {}, {}};
+  return {{box.border_toward(control + 60 * across), control, box.border_toward(control - 60 * across)}, {}, {}};
 }
 
 // For a transition from any state.
@@ -39,7 +39,7 @@ Way from_any(const Rectangle& box, const Vec2& outward, std::size_t already) {
   const Vec2 across(-outward.y(), outward.x());
   const Vec2 from = box.center() + 100 * outward + (70.0 * static_cast<double>(already) + 24) * across;
   const Vec2 to = box.border_toward(from);
-  return {from, (from + to) / 2, to, {}, {}};
+  return {{from, (from + to) / 2, to}, {}, {}};
 }
 
 }  // namespace
@@ -91,21 +91,23 @@ void MachinePicture::draw(SvgWriter& svg, double left, double top) const {
       add(from == to ? around_itself(boxes[to], direction(to), already) : way_between(boxes[from], boxes[to], already));
     }
   }
-  for (const Way& way : ways) draw_arrow(svg, way.from, way.control, way.to);
+  for (const Way& way : ways) draw_arrow(svg, way.arrow);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const MachinePose::State& each = machine_.states[i];
     const bool first = each.name == machine_.start;
     draw_box(svg, boxes[i], each.name, (first ? "start; " : "") + each.pose,
              {first ? "#dafbe1" : "#ffffff", first ? "#1a7f37" : "#57606a", 20, first});
   }
-  Labels labels(boxes);
+  std::vector<Arrow> arrows;
+  for (const Way& way : ways) arrows.push_back(way.arrow);
+  Labels labels(boxes, arrows);
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const bool from_a_state =
-        std::ranges::any_of(boxes, [&](const Rectangle& each) { return around(ways[i].from, 1, 1).overlaps(each); });
+        std::ranges::any_of(boxes, [&](const Rectangle& each) { return around(arrows[i].from, 1, 1).overlaps(each); });
     if (!from_a_state)
-      svg.leaf("circle", {{"cx", px(ways[i].from.x())}, {"cy", px(ways[i].from.y())}, {"r", "4"}, {"fill", "#8c959f"}});
-    labels.draw(svg, ways[i].from, ways[i].control, ways[i].to, (from_a_state ? "" : "any: ") + ways[i].when,
-                ways[i].how);
+      svg.leaf("circle",
+               {{"cx", px(arrows[i].from.x())}, {"cy", px(arrows[i].from.y())}, {"r", "4"}, {"fill", "#8c959f"}});
+    labels.draw(svg, i, (from_a_state ? "" : "any: ") + ways[i].when, ways[i].how);
   }
 }
 

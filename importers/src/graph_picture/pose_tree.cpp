@@ -8,7 +8,9 @@ namespace tweenfall::plotting {
 
 namespace {
 
-constexpr double tree_box_width = 150, tree_box_height = 40, tree_column = 270, tree_row = 52;
+constexpr double tree_box_width = 150, tree_box_height = 40, tree_column = 310, tree_gap = 12;  // px
+/// Of a wire before the box to which it comes, where its words stand on it; and from one such wire to the next, px.
+constexpr double port_length = 92, port_spacing = 14;
 
 }  // namespace
 
@@ -28,13 +30,28 @@ PoseTree::PoseTree(const GraphDescription& graph) {
   }
   if (things_.empty()) return;
   if (graph.output.empty()) output_ = things_.size() - 1;
-  static_cast<void>(place(output_));
+  place(output_);
   for (std::size_t i = 0; i < things_.size(); ++i)
-    if (!things_[i].placed) static_cast<void>(place(i));
-  for (const Thing& thing : things_) {
-    width_ = std::max(width_, static_cast<double>(thing.level) * tree_column + tree_box_width);
-    height_ = std::max(height_, (thing.row + 1) * tree_row);
+    if (!things_[i].placed) place(i);
+  std::vector<std::size_t> columns;
+  std::vector<double> heights;
+  std::vector<Layers::Wire> wires;
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    std::size_t ports = 0;
+    for (const GraphOperand& operand : things_[i].operands) {
+      const std::size_t part = thing_of(operand);
+      if (part == things_.size() || things_[part].column >= things_[i].column) continue;
+      wires_.push_back({part, i, operand.clip ? "" : operand.role});
+      wires.push_back({part, i});
+      ++ports;
+    }
+    columns.push_back(things_[i].column);
+    things_[i].height = std::max(tree_box_height, port_spacing * static_cast<double>(ports + 1));
+    heights.push_back(things_[i].height + tree_gap);
+    width_ = std::max(width_, static_cast<double>(things_[i].column) * tree_column + tree_box_width);
   }
+  layers_.emplace(columns, heights, std::move(wires));
+  height_ = layers_->height();
 }
 
 std::size_t PoseTree::thing_of(const GraphOperand& operand) const {
@@ -48,63 +65,65 @@ std::size_t PoseTree::thing_of(const GraphOperand& operand) const {
   return things_.size();
 }
 
-// Its operands are placed first, and it is placed at their middle.
+// What it is made of comes first.
 std::size_t PoseTree::place(std::size_t index) {
   things_[index].placed = true;
-  double sum = 0;
-  std::size_t level = 0, count = 0;
+  std::size_t column = 0;
   for (const GraphOperand& operand : std::vector<GraphOperand>(things_[index].operands)) {
     const std::size_t part = thing_of(operand);
     if (part == things_.size()) continue;
-    const std::size_t of = things_[part].placed ? things_[part].level : place(part);
-    level = std::max(level, of + 1);
-    sum += things_[part].row;
-    ++count;
+    column = std::max(column, (things_[part].placed ? things_[part].column : place(part)) + 1);
   }
-  Thing& thing = things_[index];
-  thing.level = level;
-  if (next_row_.size() <= level) next_row_.resize(level + 1, 0);
-  thing.row = std::max(next_row_[level], count > 0 ? sum / static_cast<double>(count) : 0);
-  next_row_[level] = thing.row + 1;
-  return level;
+  return things_[index].column = column;
 }
 
-Rectangle PoseTree::box(const Thing& thing, double left, double top) const {
-  const double x = left + static_cast<double>(thing.level) * tree_column, y = top + thing.row * tree_row;
-  return {x, y, x + tree_box_width, y + tree_box_height};
+Rectangle PoseTree::box(std::size_t thing, double left, double top) const {
+  const double x = left + static_cast<double>(things_[thing].column) * tree_column;
+  return around({x + tree_box_width / 2, top + layers_->middle_of(thing)}, tree_box_width, things_[thing].height);
+}
+
+// Straight through the columns that it skips, bent between them, and straight again where its words stand on it.
+void PoseTree::draw_wire(SvgWriter& svg, std::size_t wire, double end_y, double left, double top) const {
+  const auto [from, to, role] = wires_[wire];
+  const Rectangle start = box(from, left, top), end = box(to, left, top);
+  Vec2 at(start.right, start.center().y());
+  std::string path = "M" + px(at.x(), at.y());
+  const auto bend_to = [&](const Vec2& next) {
+    const double bend = (next.x() - at.x()) / 2;
+    path += " C" + px(at.x() + bend, at.y()) + " " + px(next.x() - bend, next.y()) + " " + px(next.x(), next.y());
+    at = next;
+  };
+  double column = start.left;
+  for (const double lane : layers_->lanes_of(wire)) {
+    column += tree_column;
+    bend_to({column - port_length, top + lane});
+    at.x() = column + tree_box_width;
+    path += " L" + px(at.x(), at.y());
+  }
+  bend_to({end.left - port_length, end_y});
+  path += " L" + px(end.left, end_y);
+  svg.leaf("path", {{"d", path}, {"fill", "none"}, {"stroke", "#afb8c1"}, {"stroke-width", "1.4"}});
+  if (role.empty()) return;
+  svg.text(
+      "text",
+      {{"x", px(end.left - 5)}, {"y", px(end_y - 3)}, {"text-anchor", "end"}, {"font-size", "10"}, {"fill", "#57606a"}},
+      shortened(role, port_length - 10));
 }
 
 void PoseTree::draw(SvgWriter& svg, double left, double top) const {
-  std::vector<Rectangle> taken;
-  for (const Thing& thing : things_) taken.push_back(box(thing, left, top));
-  for (const Thing& thing : things_)
-    for (const GraphOperand& operand : thing.operands) {
-      const std::size_t part = thing_of(operand);
-      if (part == things_.size()) continue;
-      const Rectangle from = box(things_[part], left, top), to = box(thing, left, top);
-      const Vec2 start(from.right, from.center().y()), end(to.left, to.center().y());
-      const double bend = std::max(40.0, (end.x() - start.x()) / 2);
-      svg.leaf("path", {{"d", "M" + px(start.x(), start.y()) + " C" + px(start.x() + bend, start.y()) + " " +
-                                  px(end.x() - bend, end.y()) + " " + px(end.x(), end.y())},
-                        {"fill", "none"},
-                        {"stroke", "#afb8c1"},
-                        {"stroke-width", "1.4"}});
-      if (operand.clip) continue;
-      const std::string words = shortened(operand.role, tree_column - tree_box_width - 16);
-      Rectangle place{start.x() + 6, start.y() - 15, start.x() + 6 + text_width(words), start.y() - 3};
-      while (std::ranges::any_of(taken, [&](const Rectangle& other) { return place.overlaps(other); }))
-        place = {place.left, place.top + 13, place.right, place.bottom + 13};
-      taken.push_back(place);
-      svg.text("text", {{"x", px(place.left)}, {"y", px(place.bottom - 2)}, {"font-size", "10"}, {"fill", "#57606a"}},
-               words);
-    }
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    const std::vector<std::size_t> wires = layers_->wires_to(i);
+    const double first = box(i, left, top).center().y() - port_spacing * (static_cast<double>(wires.size()) - 1) / 2;
+    for (std::size_t port = 0; port < wires.size(); ++port)
+      draw_wire(svg, wires[port], first + port_spacing * static_cast<double>(port), left, top);
+  }
   for (std::size_t i = 0; i < things_.size(); ++i) {
     const Thing& thing = things_[i];
     const bool shows = i == output_;
     const BoxStyle style = thing.is_clip
                                ? BoxStyle{"#ddf4ff", "#54aeff", 6, false}
                                : BoxStyle{shows ? "#fff8c5" : "#f6f8fa", shows ? "#bf8700" : "#8c959f", 6, shows};
-    draw_box(svg, box(thing, left, top), thing.name, shows ? thing.words + ", shows" : thing.words, style);
+    draw_box(svg, box(i, left, top), thing.name, shows ? thing.words + ", shows" : thing.words, style);
   }
 }
 

@@ -5,6 +5,11 @@
 #include <tweenfall/anim/graph.h>
 
 #include "graph_picture/graph_boxes.h"
+#include "graph_picture/layers.h"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace tweenfall::plotting {
 
@@ -21,17 +26,23 @@ class PoseTree {
     std::string name, words;
     std::vector<GraphOperand> operands;
     bool is_clip = false;
-    std::size_t level = 0;  // nesting depth below it
-    double row = 0;
+    std::size_t column = 0;  // how many lie one in another below it
+    double height = 0;       // of its box, px
     bool placed = false;
   };
-  [[nodiscard]] std::size_t place(std::size_t thing);
+  struct Wire {
+    std::size_t from, to;
+    std::string role;  // empty for what needs no words
+  };
+  std::size_t place(std::size_t thing);
   [[nodiscard]] std::size_t thing_of(const GraphOperand& operand) const;
-  [[nodiscard]] Rectangle box(const Thing& thing, double left, double top) const;
+  [[nodiscard]] Rectangle box(std::size_t thing, double left, double top) const;
+  void draw_wire(SvgWriter& svg, std::size_t wire, double end_y, double left, double top) const;
 
   std::vector<Thing> things_;
   std::size_t output_ = 0;
-  std::vector<double> next_row_;  // by level: the first free row
+  std::vector<Wire> wires_;
+  std::optional<Layers> layers_;
   double width_ = 0, height_ = 0;
 };
 

@@ -1,0 +1,66 @@
+// Where boxes and wires of a graph's picture go.
+
+#include "graph_picture/layers.h"
+
+#include "support.h"
+
+#include <algorithm>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+using plotting::Layers;
+
+TEST_CASE("boxes of a column and the lanes of wires that skip it lie over each other nowhere") {
+  Random random(7);
+  for (int graph = 0; graph < 40; ++graph) {
+    const std::size_t count = 2 + random.bits() % 40;
+    std::vector<std::size_t> columns{0};
+    std::vector<double> heights{40};
+    std::vector<Layers::Wire> wires;
+    for (std::size_t thing = 1; thing < count; ++thing) {
+      columns.push_back(0);
+      heights.push_back(random.between(30, 120));
+      for (std::uint64_t i = random.bits() % 4; i > 0; --i) {
+        const std::size_t from = random.bits() % thing;
+        wires.push_back({from, thing});
+        columns[thing] = std::max(columns[thing], columns[from] + 1);
+      }
+    }
+    const Layers layers(columns, heights, wires);
+    struct Stretch {
+      double top, bottom;
+    };
+    std::vector<std::vector<Stretch>> taken(count);
+    for (std::size_t thing = 0; thing < count; ++thing)
+      taken[columns[thing]].push_back(
+          {layers.middle_of(thing) - heights[thing] / 2, layers.middle_of(thing) + heights[thing] / 2});
+    for (std::size_t wire = 0; wire < wires.size(); ++wire) {
+      const std::vector<double> lanes = layers.lanes_of(wire);
+      REQUIRE(lanes.size() == columns[wires[wire].to] - columns[wires[wire].from] - 1);
+      for (std::size_t i = 0; i < lanes.size(); ++i)
+        taken[columns[wires[wire].from] + 1 + i].push_back({lanes[i] - 6, lanes[i] + 6});
+    }
+    for (std::vector<Stretch>& column : taken) {
+      std::ranges::sort(column, {}, &Stretch::top);
+      for (std::size_t i = 0; i < column.size(); ++i) {
+        CHECK(column[i].top > -1e-9);
+        CHECK(column[i].bottom < layers.height() + 1e-9);
+        if (i > 0) CHECK(column[i].top > column[i - 1].bottom - 1e-9);
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "what leads from one to one stands at one height, and wires come to a box in the order of where they are from") {
+  const Layers row({0, 1, 2}, {52, 80, 52}, {{0, 1}, {1, 2}});
+  CHECK(near(row.middle_of(0), 40, 1e-9));
+  CHECK(near(row.middle_of(1), 40, 1e-9));
+  CHECK(near(row.middle_of(2), 40, 1e-9));
+  const Layers fan({0, 0, 0, 1}, {52, 52, 52, 80}, {{2, 3}, {0, 3}, {1, 3}});
+  const std::vector<std::size_t> wires = fan.wires_to(3);
+  REQUIRE(wires.size() == 3);
+  const std::size_t from[] = {2, 0, 1};
+  CHECK(fan.middle_of(from[wires[0]]) < fan.middle_of(from[wires[1]]));
+  CHECK(fan.middle_of(from[wires[1]]) < fan.middle_of(from[wires[2]]));
+}
