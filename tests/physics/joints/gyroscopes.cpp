@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "physics/joints/joint_scene.h"
+#include "processor_time.h"
 #include "support.h"
 
 namespace tweenfall::jointed {
@@ -164,6 +165,21 @@ TEST_CASE("what swings on a taut rope, or over pulleys, keeps its energy as on a
       }
       CHECK(strayed < 0.6 / rate * swing);
     }
+}
+
+TEST_CASE("a torque that makes a gyroscope faster at once than anything turns takes no longer than others") {
+  for (const double torque : {1e9, 1e13, 1e20}) {
+    CAPTURE(torque);
+    Top top(0.3, 30, 0);
+    top.world.apply_torque(top.disk, Vec3(0, torque, torque));
+    const double begin = test::processor_seconds();
+    try {
+      for (int i = 0; i < 10; ++i) top.world.step(1.0 / 240);
+    } catch (const NotFinite& fault) {
+      CHECK(!fault.cause.empty());
+    }
+    CHECK(test::processor_seconds() - begin < 0.5);
+  }
 }
 
 }  // namespace tweenfall::jointed

@@ -43,6 +43,11 @@ Vec3 JointedSpins::begin_sub_step(std::size_t place, const state::Body& body, co
   spin.bent = Vec3::Zero();
   // The body axes at the middle and at the instant between show the same spin, as it turns the body about itself.
   spin.at_impulse = after_half(spin, body, rotation.conjugate() * angular);
+  // What a torque makes so fast at once would take no end of pieces.
+  if (!(spin.at_impulse.squaredNorm() * h * h <= followable_turn * followable_turn)) {
+    spin.half = 0;
+    return angular;
+  }
   spin.flown = after_half(spin, body, spin.at_impulse);
   return rotation * spin.flown;
 }
