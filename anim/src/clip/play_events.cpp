@@ -247,7 +247,7 @@ std::vector<FiredEvent> Player::events_between(const Clip& clip, double from, do
     fired.push_back(std::move(event));
     return true;
   });
-  std::ranges::stable_sort(fired, {}, &FiredEvent::time);
+  if (!std::ranges::is_sorted(fired, {}, &FiredEvent::time)) std::ranges::stable_sort(fired, {}, &FiredEvent::time);
   return fired;
 }
 

@@ -157,8 +157,9 @@ void take_piece(StageState& state, double step, std::span<const Command> command
     }
     handle_instant(state, step, commands, happenings, arrived);
   }
-  std::ranges::stable_sort(happenings.begin() + static_cast<std::ptrdiff_t>(first), happenings.end(), {},
-                           &Happening::time);
+  const auto begin = happenings.begin() + static_cast<std::ptrdiff_t>(first);
+  if (!std::ranges::is_sorted(begin, happenings.end(), {}, &Happening::time))
+    std::ranges::stable_sort(begin, happenings.end(), {}, &Happening::time);
 }
 
 }  // namespace tweenfall::staging

@@ -12,12 +12,16 @@ namespace tweenfall::staging {
 namespace {
 
 void tell(std::vector<FiredEvent> fired, std::vector<Happening>& happenings) {
-  std::ranges::stable_sort(fired, {}, &FiredEvent::time);
+  if (!std::ranges::is_sorted(fired, {}, &FiredEvent::time)) std::ranges::stable_sort(fired, {}, &FiredEvent::time);
+  happenings.reserve(happenings.size() + fired.size());
   for (FiredEvent& event : fired) {
     Happening& happening = happenings.emplace_back();
     happening.time = event.time;
-    happening.what =
-        StageEvent{.time = event.time, .name = event.name, .data = event.data, .nodes = {}, .kind = event.kind};
+    happening.what = StageEvent{.time = event.time,
+                                .name = std::move(event.name),
+                                .data = std::move(event.data),
+                                .nodes = {},
+                                .kind = event.kind};
   }
 }
 
