@@ -60,19 +60,35 @@ void BlockPivots::find(std::span<const double> q) {
       enough = enough && std::abs(left_[i]) <= 0.1 * slack_[rows_[i]];
     }
     if (enough || k == most_refinements) return;
-    for (std::size_t i = 0; i < size; ++i) {
-      const double* row = &factor_[i * size];
-      const double part = left_[i] / row[i];
-      for (std::size_t j = i + 1; j < size; ++j) left_[j] -= part * row[j];
-    }
-    for (std::size_t i = size; i-- > 0;) {
-      const double* row = &factor_[i * size];
-      double sum = left_[i];
-      for (std::size_t j = i + 1; j < size; ++j) sum -= row[j] * left_[j];
-      left_[i] = sum / row[i];
-    }
+    solve_factored();
     for (std::size_t i = 0; i < size; ++i) values_[rows_[i]] += left_[i];
   }
+}
+
+void BlockPivots::solve_factored() {
+  const std::size_t size = rows_.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    const double* row = &factor_[i * size];
+    const double part = left_[i] / row[i];
+    for (std::size_t j = i + 1; j < size; ++j) left_[j] -= part * row[j];
+  }
+  for (std::size_t i = size; i-- > 0;) {
+    const double* row = &factor_[i * size];
+    double sum = left_[i];
+    for (std::size_t j = i + 1; j < size; ++j) sum -= row[j] * left_[j];
+    left_[i] = sum / row[i];
+  }
+}
+
+bool BlockPivots::correct(std::span<const double> parting, std::span<const double> z, std::span<double> change) {
+  for (std::size_t i = 0; i < count_; ++i) pressing_[i] = z[i] > 0;
+  if (!factor()) return false;
+  left_.resize(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) left_[i] = -parting[rows_[i]];
+  solve_factored();
+  std::fill(change.begin(), change.end(), 0.0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) change[rows_[i]] = left_[i];
+  return true;
 }
 
 bool BlockPivots::solve(std::span<const double> q, std::span<double> z) {

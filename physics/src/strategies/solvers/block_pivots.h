@@ -20,8 +20,11 @@ class BlockPivots {
   /// @param z  a guess, and then the solution: rows above 0 are tried first
   /// @return whether it was solved within rounding
   [[nodiscard]] bool solve(std::span<const double> q, std::span<double> z);
+  /// How z must change so that what rows above 0 still part by goes. @return whether they can be solved for
+  [[nodiscard]] bool correct(std::span<const double> parting, std::span<const double> z, std::span<double> change);
 
  private:
+  void solve_factored();
   [[nodiscard]] bool factor();
   void find(std::span<const double> q);
 

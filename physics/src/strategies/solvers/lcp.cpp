@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "strategies/solvers/block_pivots.h"
+#include "strategies/solvers/fine_speeds.h"
 #include "strategies/solvers/lemke.h"
 #include "strategies/solvers/solvers.h"
 
@@ -13,8 +14,8 @@ namespace {
 /// Up to `few_touches` the problem is solved by Lemke's pivots, above by projected Gauss-Seidel; but up to
 /// `most_pivoted` by block pivots if a few passes of that are not enough, as when heavy bodies lie on light ones.
 constexpr std::size_t few_touches = 96, most_pivoted = 1024;
-/// Accepted residual, m/s, if rounding allows it, and the greatest number of projected Gauss-Seidel passes.
-constexpr double near_enough_to_end = 2e-10;
+/// How far off it may end, m/s, where rounding allows it, and passes that projected Gauss-Seidel may take.
+constexpr double near_enough_to_end = 2e-10, near_at_most = 5e-10;
 constexpr int few_sweeps = 400, most_sweeps = 20000;
 /// If a body stands on more points than it needs, the problem does not determine what each bears. Adding this part of
 /// its own inverse mass to each touch makes it unique, near all solutions; solving again about the resulting impulses
@@ -25,6 +26,8 @@ constexpr int most_hardenings = 12;
 constexpr double less_and_less[] = {1e-6, 1e-8, 1e-10};
 /// Normals are solved with friction as it is, and friction with normals as they are, in turn.
 constexpr int most_rounds = 12;
+/// Times that impulses are mended by what they leave.
+constexpr int most_corrections = 3;
 
 /// How far impulses and parting speeds are from being nonnegative with one of the two zero, m/s.
 double residual(const Gathering& island) {
@@ -83,15 +86,31 @@ bool state_problem(Gathering& island, Pivoting& problem) {
   return true;
 }
 
-/// @return whether the residual is small enough; otherwise everything is as before
-bool accept(Gathering& island, const Pivoting& problem, double enough) {
+/// Gives the impulses, and mends what rounding left of them, by velocities in more digits.
+/// @param pivots  of the problem's matrix
+/// @return whether that leaves nothing; else all is as it was
+bool accept(Gathering& island, const Pivoting& problem, BlockPivots& pivots, double enough) {
   const Gathering before = island;
-  for (std::size_t i = 0; i < island.touches.size(); ++i) {
-    Touch& touch = island.touches[i];
-    const double pressed = problem.units[i] * problem.impulses[i];
-    island.push(touch, (pressed - touch.impulse) * touch.normal);
-    touch.impulse = pressed;
+  const std::size_t count = island.touches.size();
+  std::vector<long double> impulses(count);
+  std::vector<double> left(count), change(count);
+  FineSpeeds speeds(before);
+  for (std::size_t i = 0; i < count; ++i) {
+    impulses[i] = static_cast<long double>(problem.units[i]) * problem.impulses[i];
+    speeds.push(island.touches[i], impulses[i] - island.touches[i].impulse);
   }
+  for (int k = 0; k < most_corrections; ++k) {
+    for (std::size_t i = 0; i < count; ++i)
+      left[i] = problem.units[i] * static_cast<double>(speeds.parting(island.touches[i]) - island.touches[i].wanted);
+    if (!pivots.correct(left, problem.impulses, change)) break;
+    for (std::size_t i = 0; i < count; ++i) {
+      const long double mended = std::max(0.0L, impulses[i] + problem.units[i] * static_cast<long double>(change[i]));
+      speeds.push(island.touches[i], mended - impulses[i]);
+      impulses[i] = mended;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) island.touches[i].impulse = static_cast<double>(impulses[i]);
+  speeds.tell(island);
   if (residual(island) < enough) return true;
   island = before;
   return false;
@@ -128,7 +147,9 @@ bool pivoted(Gathering& island, double enough) {
   const auto by_lemke = [&](const std::vector<double>& offsets, std::vector<double>& impulses) {
     return solve_by_lemke(problem.matrix, offsets, impulses);
   };
-  return hardened(problem, softness, enough, by_lemke) && accept(island, problem, enough);
+  if (!hardened(problem, softness, enough, by_lemke)) return false;
+  BlockPivots pivots(problem.matrix, problem.units);
+  return accept(island, problem, pivots, std::min(enough, near_at_most));
 }
 
 /// The same by block pivots, which also work when light bodies bear ten thousand times their mass: there
@@ -146,7 +167,8 @@ bool pivoted_by_blocks(Gathering& island, double enough) {
     const auto by_blocks = [&](const std::vector<double>& offsets, std::vector<double>& impulses) {
       return pivots.solve(offsets, impulses);
     };
-    if (hardened(problem, soft, enough, by_blocks) && accept(island, problem, enough)) return true;
+    if (hardened(problem, soft, enough, by_blocks) && accept(island, problem, pivots, std::min(enough, near_at_most)))
+      return true;
   }
   return false;
 }
@@ -167,7 +189,8 @@ bool swept(Gathering& island, double enough, int most, int& left) {
 
 void solve_normals(Gathering& island, double enough, int& left) {
   const std::size_t count = island.touches.size();
-  if (count == 0 || (count <= few_touches && pivoted(island, enough)) || swept(island, enough, few_sweeps, left))
+  if (count == 0 || (count <= few_touches && pivoted(island, enough)) ||
+      swept(island, std::min(enough, near_at_most), few_sweeps, left))
     return;
   if (count > most_pivoted || !pivoted_by_blocks(island, enough)) swept(island, enough, most_sweeps, left);
 }
