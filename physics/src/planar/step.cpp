@@ -180,8 +180,8 @@ void World::Implementation::step(double dt, double parts) {
   }
   solver.solve({bodies, makeups, meetings, joints, moving, active, settings.push_out_speed, dt, effort.sub_steps,
                 effort.relaxes_each, warmth, parts, kept});
-  report();
   arrive(dt);
+  report();
   if (!std::isinf(settings.sleep_after)) let_sleep(dt);
   forget_forces();
   check_finite(0);

@@ -229,6 +229,30 @@ TEST_CASE("in a plane a pyramid of twenty rows stands, presses with its weight, 
   CHECK_FALSE(world.asleep(world.bodies()[1]));
 }
 
+TEST_CASE("in a plane contacts are told where bodies are at the end of the step, keyed ones too") {
+  planar::World world({.gravity = Vec2(-9.81, 0)});
+  planar::BodySettings pusher{.shape = {planar::Box{Vec2(0.2, 0.5)}}, .drive = Drive::keyed()};
+  const BodyId keyed = world.add(pusher);
+  planar::BodySettings box{.shape = {planar::Box{Vec2(0.3, 0.3)}}, .mass = 1};
+  box.motion.position = Vec2(0.5, 0);
+  const BodyId pushed = world.add(box);
+  int told = 0;
+  for (int step = 1; step <= 60; ++step) {
+    world.set_target(keyed, {.position = Vec2(step / 120.0, 0), .velocity = Vec2(2, 0)});
+    world.step(1.0 / 240);
+    for (const planar::Contact& contact : world.contacts())
+      for (int i = 0; i < contact.manifold.count; ++i) {
+        const planar::ContactPoint& point = contact.manifold.points[static_cast<std::size_t>(i)];
+        const double face = world.motion(keyed).position.x() + 0.2, other = world.motion(pushed).position.x() - 0.3;
+        // The box turns by little.
+        CHECK(near(point.position.x(), 0.5 * (face + other), 1e-3));
+        CHECK(near(point.penetration, face - other, 1e-3));
+        ++told;
+      }
+  }
+  CHECK(told > 60);
+}
+
 TEST_CASE("in a plane a keyed body has its target's numbers exactly, pushes, and is handed over with its velocity") {
   planar::World world;
   add_ground(world);

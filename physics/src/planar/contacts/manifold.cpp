@@ -126,7 +126,10 @@ class Finder {
     if (of_b.apart > enough) return;
     flipped_ = of_b.apart > of_a.apart + alike * size;
     const BestSide& best = flipped_ ? of_b : of_a;
-    if ((best.apart <= 0 && (beyond(a_, b_) || beyond(b_, a_))) || !touch_side(best, alike * size)) touch_corners();
+    if ((best.apart <= 0 && (beyond(a_, b_) || beyond(b_, a_))) || !touch_side(best, alike * size))
+      touch_corners();
+    else if (best.apart <= 0 && !flipped_ && of_b.apart > of_a.apart)
+      lean_on(of_b);
   }
   void find_on_line() {
     const Vec2 normal = a_.normal(0);
@@ -159,7 +162,37 @@ class Finder {
     add_single(near.on_a, near.on_b, direction(near.on_a, near.on_b), near.feature);
   }
 
-  /// @return false when two corners are nearer than the points above the side
+  /// Of two sides as good as alike the first body's has named the points; the other's tells how deep they are.
+  void lean_on(const BestSide& of_b) {
+    if (found.count == 0) return;
+    const Vec2 normal = -b_.normal(of_b.side), corner = a_.at(of_b.corner);
+    std::size_t there = 0;
+    for (std::size_t i = 1; i < static_cast<std::size_t>(found.count); ++i)
+      if ((found.points[i].core_a - corner).squaredNorm() < (found.points[there].core_a - corner).squaredNorm())
+        there = i;
+    found.normal = normal;
+    found.points[there].core_a = corner;
+    found.points[there].core_b = corner + of_b.apart * normal;
+    for (FoundPoint& point : found.points) point.gap = normal.dot(point.core_b - point.core_a) - skins_;
+  }
+
+  /// Two points above a side, of which the nearer one is cut off at the side's end though the other's corner beyond it
+  /// is lower: what is nearest there lies across the other's side. The normal goes there, and both points stay.
+  void lean(double slack) {
+    const Near near = nearest_points(a_, b_);
+    const Vec2 normal = direction(near.on_a, near.on_b);
+    if (found.normal.dot(normal) < 0.5) return;
+    std::size_t nearer = 0;
+    for (std::size_t i = 1; i < static_cast<std::size_t>(found.count); ++i)
+      if (found.points[i].gap < found.points[nearer].gap) nearer = i;
+    if (found.count == 0 || found.points[nearer].gap + skins_ > std::sqrt(near.square) + slack) return;
+    found.normal = normal;
+    found.points[nearer].core_a = near.on_a;
+    found.points[nearer].core_b = near.on_b;
+    for (FoundPoint& point : found.points) point.gap = normal.dot(point.core_b - point.core_a) - skins_;
+  }
+
+  /// @return false when two corners are nearer than what lies above the side
   bool touch_side(const BestSide& best, double slack) {
     const Sides &of = flipped_ ? b_ : a_, &other = flipped_ ? a_ : b_;
     const Vec2 normal = of.normal(best.side), start = of.at(best.side), along = quarter(normal);
@@ -171,6 +204,7 @@ class Finder {
     };
     std::array<Above, 2> points;
     int count = 1;
+    bool leans = false;
     if (other.count == 1) {
       points[0] = above(0, 0, 0);
       if (best.apart > 0 && !(points[0].along >= 0 && points[0].along <= length)) return false;
@@ -188,6 +222,7 @@ class Finder {
       } else if (best.apart > 0 && std::min(points[0].above, points[1].above) > best.apart + slack) {
         return false;
       }
+      leans = best.apart > 0 && count == 2 && std::min(points[0].above, points[1].above) > best.apart;
     }
     found.normal = flipped_ ? Vec2(-normal) : normal;
     for (int i = 0; i < count; ++i) {
@@ -196,6 +231,7 @@ class Finder {
       const Vec2 on_side = start + point.along * along, on_other = on_side + point.above * normal;
       put(flipped_ ? on_other : on_side, flipped_ ? on_side : on_other, point.above, point.feature);
     }
+    if (leans) lean(slack);
     return true;
   }
 
