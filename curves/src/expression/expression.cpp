@@ -1,5 +1,6 @@
 #include <tweenfall/curves/expression.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -41,6 +42,31 @@ Sample<double> Expression::sample(std::span<const Sample<double>> variables, Sid
     ++top;
   }
   return {stack[0].v, stack[0].d, stack[0].dd};
+}
+
+bool Expression::reads(std::size_t variable) const noexcept {
+  return std::any_of(program_->steps.begin(), program_->steps.end(), [&](const Program::Step& step) {
+    return !step.function && step.variable >= 0 && static_cast<std::size_t>(step.variable) == variable;
+  });
+}
+
+std::vector<Expression> Expression::jumping_parts() const {
+  const std::vector<Program::Step>& steps = program_->steps;
+  std::vector<Expression> parts;
+  std::vector<std::ptrdiff_t> begins;  // of what lies on the stack, among the steps
+  for (std::ptrdiff_t i = 0; i < std::ssize(steps); ++i) {
+    std::ptrdiff_t begin = i;
+    if (const expressions::ExpressionFunction* function = steps[static_cast<std::size_t>(i)].function) {
+      begins.resize(begins.size() - static_cast<std::size_t>(function->count) + 1);
+      begin = begins.back();
+      begins.pop_back();
+      if (function->jumps)
+        parts.push_back(Expression(std::make_shared<const Program>(
+            Program{std::vector<Program::Step>(steps.begin() + begin, steps.begin() + i + 1)})));
+    }
+    begins.push_back(begin);
+  }
+  return parts;
 }
 
 std::vector<std::string> Expression::functions() {

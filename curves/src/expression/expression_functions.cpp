@@ -132,7 +132,8 @@ constexpr ExpressionFunction functions[] = {
      [](Arguments a, double) noexcept {
        const double t = elementary::tan(a[0].v), first = 1 + t * t;
        return math::chained(a[0], t, first, 2 * t * first);
-     }},
+     },
+     true},
     {"asin", "x", 1, false, [](Arguments a, double) noexcept { return arc_sine(a[0]); }},
     {"acos", "x", 1, false,
      [](Arguments a, double) noexcept {
@@ -140,7 +141,7 @@ constexpr ExpressionFunction functions[] = {
        return math::Jet{s.v == s.v ? elementary::acos(a[0].v) : s.v, s.d, s.dd};
      }},
     {"atan", "x", 1, false, [](Arguments a, double) noexcept { return arc_tangent(a[0]); }},
-    {"atan2", "y, x", 2, false, [](Arguments a, double way) noexcept { return angle_of(a[0], a[1], way); }},
+    {"atan2", "y, x", 2, false, [](Arguments a, double way) noexcept { return angle_of(a[0], a[1], way); }, true},
     {"sinh", "x", 1, false,
      [](Arguments a, double) noexcept {
        const double s = elementary::sinh(a[0].v), c = elementary::cosh(a[0].v);
@@ -167,20 +168,21 @@ constexpr ExpressionFunction functions[] = {
        const double sign = tendency(a[0], way);
        return math::Jet{std::abs(a[0].v), sign * a[0].d, sign * a[0].dd};
      }},
-    {"sign", "x", 1, false, [](Arguments a, double way) noexcept { return math::constant(tendency(a[0], way)); }},
-    {"floor", "x", 1, false, [](Arguments a, double way) noexcept { return floor_of(a[0], way); }},
-    {"ceil", "x", 1, false, [](Arguments a, double way) noexcept { return negative(floor_of(negative(a[0]), way)); }},
-    {"round", "x", 1, false, [](Arguments a, double way) noexcept { return floor_of(a[0] + 0.5, way); }},
-    {"fract", "x", 1, false, [](Arguments a, double way) noexcept { return a[0] - floor_of(a[0], way); }},
+    {"sign", "x", 1, false, [](Arguments a, double way) noexcept { return math::constant(tendency(a[0], way)); }, true},
+    {"floor", "x", 1, false, [](Arguments a, double way) noexcept { return floor_of(a[0], way); }, true},
+    {"ceil", "x", 1, false, [](Arguments a, double way) noexcept { return negative(floor_of(negative(a[0]), way)); },
+     true},
+    {"round", "x", 1, false, [](Arguments a, double way) noexcept { return floor_of(a[0] + 0.5, way); }, true},
+    {"fract", "x", 1, false, [](Arguments a, double way) noexcept { return a[0] - floor_of(a[0], way); }, true},
     {"mod", "x, y", 2, false,
-     [](Arguments a, double way) noexcept { return a[0] - a[1] * floor_of(quotient(a[0], a[1]), way); }},
+     [](Arguments a, double way) noexcept { return a[0] - a[1] * floor_of(quotient(a[0], a[1]), way); }, true},
     {"min", "a, b, ...", 2, true, [](Arguments a, double way) noexcept { return lesser(a[0], a[1], way); }},
     {"max", "a, b, ...", 2, true, [](Arguments a, double way) noexcept { return greater(a[0], a[1], way); }},
     {"clamp", "x, low, high", 3, false,
      [](Arguments a, double way) noexcept { return clamped(a[0], a[1], a[2], way); }},
     {"mix", "a, b, weight", 3, false, [](Arguments a, double) noexcept { return a[0] + (a[1] - a[0]) * a[2]; }},
     {"step", "edge, x", 2, false,
-     [](Arguments a, double way) noexcept { return math::constant(tendency(a[1] - a[0], way) < 0 ? 0 : 1); }},
+     [](Arguments a, double way) noexcept { return math::constant(tendency(a[1] - a[0], way) < 0 ? 0 : 1); }, true},
     {"smoothstep", "from, to, x", 3, false,
      [](Arguments a, double way) noexcept { return smooth_step(a[0], a[1], a[2], way); }},
 };
@@ -189,7 +191,7 @@ constexpr ExpressionFunction operators[] = {
     {"+", "a, b", 2, false, [](Arguments a, double) noexcept { return a[0] + a[1]; }},
     {"-", "a, b", 2, false, [](Arguments a, double) noexcept { return a[0] - a[1]; }},
     {"*", "a, b", 2, false, [](Arguments a, double) noexcept { return a[0] * a[1]; }},
-    {"/", "a, b", 2, false, [](Arguments a, double) noexcept { return quotient(a[0], a[1]); }},
+    {"/", "a, b", 2, false, [](Arguments a, double) noexcept { return quotient(a[0], a[1]); }, true},
     {"^", "a, b", 2, false, [](Arguments a, double) noexcept { return raised(a[0], a[1]); }},
     {"_", "a", 1, false, [](Arguments a, double) noexcept { return negative(a[0]); }},
 };

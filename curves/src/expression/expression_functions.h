@@ -16,6 +16,7 @@ struct ExpressionFunction {
   bool any_number;             // more arguments are folded: max(a, b, c) = max(max(a, b), c)
   /// `way` is 1 for the limit from later, -1 for that from earlier: it decides where the function jumps or kinks.
   math::Jet (*apply)(const math::Jet* arguments, double way) noexcept;
+  bool jumps = false;  // somewhere, from one value to another
 };
 
 /// Those with a name, in the order the documentation lists them.

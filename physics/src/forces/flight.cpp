@@ -62,6 +62,7 @@ void Flight::gather(const Acting& acting, std::span<const std::uint32_t> watched
   const std::size_t count = starts_.size();
   glimpses_.resize(count);
   rates_.resize(count);
+  resisted_.assign(count, {0, 0});
   means_.resize(count * numbers);
   sizes_.resize(count * numbers);
   for (std::size_t k = 0; k < count; ++k) {
@@ -80,7 +81,10 @@ void Flight::gather(const Acting& acting, std::span<const std::uint32_t> watched
     const Change mean = change_of(means_, k);
     load.acceleration = load.end_acceleration = mean.linear;
     load.torque = mean.momentum;
+    const Body& body = acting.bodies[starts_[k].index];
     load.drag = load.angular_drag = load.angular_damping = 0;
+    load.met_drag = body.makeup->linear_damping + resisted_[k].first / body.mass().mass;
+    load.met_angular_drag = resisted_[k].second;
   }
 }
 
@@ -124,7 +128,7 @@ void Flight::tie(const Acting& acting, std::span<const std::uint32_t> watched, c
 class Flight::Amid : public Moment {
  public:
   Amid(const Flight& flight, const Acting& acting, double after)
-      : Moment(acting.bodies, acting.settings.gravity, acting.time + after),
+      : Moment(acting.bodies, acting.settings.gravity, acting.time + after, after >= acting.dt ? Side::in : Side::out),
         flight_(flight),
         after_(after),
         dt_(acting.dt) {}
@@ -132,7 +136,6 @@ class Flight::Amid : public Moment {
     const std::uint32_t slot = flight_.slots_[body];
     return slot == nobody ? led(bodies[body], after_, dt_) : flight_.glimpses_[slot];
   }
-  [[nodiscard]] Side side() const { return after_ >= dt_ ? Side::in : Side::out; }
 
  private:
   const Flight& flight_;
@@ -156,9 +159,10 @@ void Flight::find_rates(const Acting& acting, std::span<const std::uint32_t> wat
     rates_[k].turn = turn_rate(changed.turn, at.angular);
     rates_[k].momentum = body.torque() - body.makeup->angular_damping * momentum;
   }
+  std::ranges::fill(resisted_, std::pair(0.0, 0.0));
   const Amid moment(*this, acting, after);
   for (const NumberedForce& entry : acting.forces) {
-    const double strength = entry.settings.strength.at(moment.time, moment.side());
+    const double strength = entry.settings.strength.at(moment.time, moment.side);
     if (named(entry.force).alone && !std::holds_alternative<Push>(entry.force)) {
       const std::optional<Spring> spring = spring_between(entry.force, strength, acting.bodies);
       if (spring && !too_stiff(*spring, acting.bodies, loads)) add_spring(acting, *spring, moment);
@@ -174,6 +178,8 @@ void Flight::find_rates(const Acting& acting, std::span<const std::uint32_t> wat
       if (effect.torque != Vec3::Zero()) rate.momentum += effect.torque;
       rate.linear -= effect.resistance / mass * (at.linear - effect.medium);
       rate.momentum -= effect.angular_resistance * at.angular;
+      resisted_[slots_[i]].first += effect.resistance;
+      resisted_[slots_[i]].second += effect.angular_resistance;
     });
   }
   for (std::size_t k = 0; k < starts_.size(); ++k) put(rates_[k], rates, k);

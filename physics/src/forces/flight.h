@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "forces/forces.h"
@@ -56,6 +57,7 @@ class Flight {
   std::vector<Start> starts_;
   std::vector<Glimpse> glimpses_;
   std::vector<Change> rates_;
+  std::vector<std::pair<double, double>> resisted_;  ///< by what drags, kg/s, and what slows turns, kg m^2/s
   std::vector<double> means_, sizes_;
   std::vector<std::uint32_t> ties_, turns_;  ///< by start
   Room room_;

@@ -54,11 +54,13 @@ class EndOfStep : public Moment {
  public:
   EndOfStep(const std::vector<Body>& all, const WorldSettings& settings, double start, bool later, double dt,
             const std::vector<Load>& loads)
-      : Moment(all, settings.gravity, later ? start + dt : start), loads_(loads), dt_(dt), later_(later) {}
+      : Moment(all, settings.gravity, later ? start + dt : start, later ? Side::in : Side::out),
+        loads_(loads),
+        dt_(dt),
+        later_(later) {}
   [[nodiscard]] Glimpse of(std::uint32_t body) const override {
     return later_ ? ahead(bodies[body], loads_[body], dt_) : now(bodies[body]);
   }
-  [[nodiscard]] Side side() const { return later_ ? Side::in : Side::out; }
 
  private:
   const std::vector<Load>& loads_;
@@ -177,7 +179,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
   const auto add = [&](bool at_end) {
     const EndOfStep moment(bodies, settings, time, at_end, dt, loads);
     for (const NumberedForce& entry : forces) {
-      const double strength = entry.settings.strength.at(moment.time, moment.side());
+      const double strength = entry.settings.strength.at(moment.time, moment.side);
       if (named(entry.force).alone && !std::holds_alternative<Push>(entry.force)) {
         const std::optional<Spring> spring = spring_between(entry.force, strength, bodies);
         if (!spring || too_stiff(*spring, bodies, loads)) continue;

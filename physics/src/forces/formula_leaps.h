@@ -2,19 +2,36 @@
 
 #include <tweenfall/curves/expression.h>
 
-#include <string>
+#include <functional>
+#include <span>
+#include <vector>
 
 namespace tweenfall::forces {
 
-/// Whether a formula of t contains anything that jumps from one value to another.
-[[nodiscard]] bool may_leap(const std::string& text);
+/// A formula along one number, with its rate by it.
+using Along = std::function<Sample<double>(double, Side)>;
 
-/// Whether the value changes more from one time to a later one than the rates there allow.
-[[nodiscard]] bool leaps(const Expression& formula, double from, double to);
+/// The parts of formulas that leap from one value to another by the time alone, whatever else the formulas read.
+/// @param time       the variable that is the time
+/// @param variables  how many there are, with it
+[[nodiscard]] std::vector<Expression> leaping_parts(std::span<const Expression> formulas, std::size_t time,
+                                                    std::size_t variables);
+/// Such a part along the time. @param part  outlives it
+[[nodiscard]] Along by_time(const Expression& part, std::size_t time);
 
-/// The first time in (from, to] at which a formula jumps; infinity for none. The formula is sampled eight times in
-/// between: jumps that undo each other between two samples go unseen, and so does one that is no larger than
-/// what the formula's rate gives in that time.
-[[nodiscard]] double next_leap(const Expression& formula, double from, double to);
+/// Whether more has changed from one place to a later one than the rates there could.
+[[nodiscard]] bool leaps(const Along& formula, double from, double to);
+
+/// The first place in (from, to] at which a formula leaps; infinity for none. It is looked for between eight looks at
+/// what is in between: leaps that undo each other between two looks go unseen, and so does one that is no larger than
+/// what the formula's rate makes of that way.
+[[nodiscard]] double next_leap(const Along& formula, double from, double to);
+
+/// When to ask in place of an instant that lies beside a leap, on the side that is asked for.
+/// @param parts  that leap by the time alone
+[[nodiscard]] double beside_leaps(std::span<const Expression> parts, std::size_t time_variable, double time, Side side);
+
+/// Times nearer to a leap or a key than this, s, are its own: what is summed up from steps is a little off.
+constexpr double at_a_leap = 1e-9;
 
 }  // namespace tweenfall::forces

@@ -13,9 +13,12 @@ struct Load {
   double drag = 0;                 ///< 1/s, taken implicitly
   double angular_drag = 0;         ///< kg m^2/s, taken implicitly
   double angular_damping = 0;      ///< 1/s, taken implicitly
-  double springiness = 0;          ///< of the springs on it: k h^2 + c h divided by the mass that their ends feel
-  bool saturated = false;          ///< its drive is at its limit
-  Twist pulled;  ///< of a driven body: the twist with which it moves through the step if nothing touches it
+  double springiness = 0;          ///< of the springs on it: k h^2 + c h over the mass that their ends feel
+  // Of an integrator that takes what resists by itself, which is in none of those then: what there was of it
+  double met_drag = 0;          ///< 1/s
+  double met_angular_drag = 0;  ///< kg m^2/s
+  bool saturated = false;       ///< so that the drive is at its limit
+  Twist pulled;                 ///< of a driven body: with which it gets through the step if nothing touches it
 };
 
 struct Spin {

@@ -14,9 +14,6 @@ namespace tweenfall {
 namespace forces {
 namespace {
 
-/// Times nearer to a key than this, s, count as the key's: sums of steps are slightly off.
-constexpr double at_a_key = 1e-9;
-
 bool has_eases(const std::vector<Span<double>>& spans) {
   return std::any_of(spans.begin(), spans.end(),
                      [](const Span<double>& span) { return span.warp.function != nullptr; });
@@ -78,22 +75,18 @@ Strength Strength::formula(const std::string& text) {
   Strength strength;
   strength.formula_ = Expression(text);
   strength.text_ = text;
+  strength.leaping_ = forces::leaping_parts({&*strength.formula_, 1}, 0, 1);
   return strength;
 }
 
 double Strength::at(double time, Side side) const noexcept {
   double value = factor_;
   if (formula_) {
-    value = formula_->sample(time, side).value;
-    if (forces::may_leap(text_)) {
-      const double beside = side == Side::in ? time - forces::at_a_key : time + forces::at_a_key;
-      const double there = formula_->sample(beside, side).value;
-      if (forces::leaps(*formula_, std::min(time, beside), std::max(time, beside))) value = there;
-    }
+    value = formula_->sample(forces::beside_leaps(leaping_, 0, time, side), side).value;
   } else if (curve_) {
     const std::span<const double> knots = curve_->knots();
-    const auto next = std::lower_bound(knots.begin(), knots.end(), time - forces::at_a_key);
-    value = curve_->value(next != knots.end() && *next <= time + forces::at_a_key ? *next : time, side);
+    const auto next = std::lower_bound(knots.begin(), knots.end(), time - forces::at_a_leap);
+    value = curve_->value(next != knots.end() && *next <= time + forces::at_a_leap ? *next : time, side);
   }
   return std::isfinite(value) ? value : 0;
 }

@@ -147,10 +147,11 @@ struct PlayedTracks {
   std::vector<PlayedTrack<Vec3>> surfaces;  ///< m/s
 };
 
-/// When strengths of forces and scripts of vehicles jump from one value to another.
+/// When fields, strengths of forces and scripts of vehicles leap from one value to another.
 struct Leaps {
   std::vector<double> keyed;         ///< in order, s
-  std::vector<Expression> formulas;  ///< those that are evaluated step by step
+  std::vector<Expression> formulas;  ///< of the time, that are asked step by step
+  std::vector<ForceFormula> fields;  ///< likewise
 };
 
 /// One joint that the description or the caller put into the world.

@@ -1,4 +1,5 @@
 #include <tweenfall/curves/keys.h>
+#include <tweenfall/physics/stage/inspection.h>
 #include <tweenfall/physics/stage/recording.h>
 
 #include <cmath>
@@ -153,13 +154,76 @@ TEST_CASE("where a strength leaps inside a step, the force is there from that in
   }
 }
 
-TEST_CASE("a formula that leaps tells when, and one that is only steep does not") {
-  CHECK(forces::may_leap("2 * floor(t)"));
-  CHECK_FALSE(forces::may_leap("smoothstep(0, 1, t) + steppe"));
-  const double never = std::numeric_limits<double>::infinity();
-  const auto leap = [](const char* text, double from, double to) {
-    return forces::next_leap(Expression(text), from, to);
+TEST_CASE("where a field leaps inside a step, in a pulse however short, its force is there from that instant on") {
+  const double begins = 0.31371, ends = 0.71113;
+  const auto short_pulse = [](double length) {
+    return "3 * mass * (step(0.5113, t) - step(" + std::to_string(0.5113 + length) + ", t))";
   };
+  struct Case {
+    std::string text;
+    double gain, way;  // m/s and m at 1 s, of 3 m/s^2
+  };
+  const double held = ends - begins, late = 1 - 0.5113;
+  const std::vector<Case> cases{
+      {"3 * mass * (step(0.31371, t) - floor(t / 0.71113))", 3 * held, 1.5 * held * held + 3 * held * (1 - ends)},
+      {"1.5 * mass * (1 + sign(t - 0.31371))", 3 * (1 - begins), 1.5 * (1 - begins) * (1 - begins)},
+      {"(3 + 0 * x * vy) * mass * floor(mod(t + 0.68629, 2))", 3 * (1 - begins), 1.5 * (1 - begins) * (1 - begins)},
+      {short_pulse(1e-3), 3e-3, 3e-3 * (late - 5e-4)},
+      {short_pulse(1e-5), 3e-5, 3e-5 * (late - 5e-6)}};
+  for (const Integrator integrator : {Integrator::exact_quadratic, Integrator::rk4, Integrator::trapezoid})
+    for (const Case& each : cases) {
+      CAPTURE(each.text);
+      StageDescription stage;
+      stage.step = 1.0 / 60;
+      stage.world.gravity = Vec3(0, 0, 0);
+      stage.world.integrator = integrator;
+      stage.nodes.push_back({.name = "box", .body = BodyDescription{.shape = {Box{Vec3(1, 1, 1)}}, .mass = 2.0}});
+      stage.forces = {{.force = ForceFormula({each.text, "0", "0"})}};
+      Stage run(stage);
+      run.advance_to(1);
+      CHECK(near(run.twist(0).linear.x(), each.gain, 1e-8));
+      CHECK(near(run.world(0).motion.pose.position.x(), each.way, 1e-8));
+    }
+}
+
+TEST_CASE("a thin slab of a field that a body passes within one step is told, and one that it cannot pass is not") {
+  const auto told = [](const char* text, double speed) {
+    StageDescription stage;
+    stage.step = 1.0 / 60;
+    stage.world.gravity = Vec3(0, 0, 0);
+    BodyDescription bullet{.shape = {Sphere{0.01}}, .mass = 1.0};
+    bullet.twist.linear = Vec3(speed, 0, 0);
+    stage.nodes.push_back({.name = "bullet", .body = bullet});
+    stage.forces = {{.force = ForceFormula({"0", text, "0"})}};
+    const StageInspection found = inspect(stage, true);
+    return found.extremes.empty() ? std::string() : found.extremes[0].message;
+  };
+  const char* slab = "step(1, x) - step(1.01, x)";
+  CHECK(told(slab, 33).find("0.01 m long") != std::string::npos);
+  CHECK(told(slab, 0.3).empty());
+  CHECK(told("step(1, x) * step(0, 2 - x)", 30).empty());
+  CHECK(told("x", 30).empty());
+}
+
+TEST_CASE("a formula that leaps tells when, and one that is only steep does not") {
+  const auto parts = [](const char* text) {
+    const Expression formula(text);
+    return forces::leaping_parts({&formula, 1}, 0, 1);
+  };
+  CHECK(parts("2 * floor(t)").size() == 1);
+  CHECK(parts("floor(3 * step(0.5, t)) / t - floor(2)").size() == 3);
+  CHECK(parts("smoothstep(0, 1, t)").empty());
+  const double never = std::numeric_limits<double>::infinity();
+  const auto leap = [&](const char* text, double from, double to) {
+    double first = never;
+    for (const Expression& part : parts(text))
+      first = std::min(first, forces::next_leap(forces::by_time(part, 0), from, std::min(to, first)));
+    return first;
+  };
+  // Of many the first.
+  CHECK(near(leap("floor(1000 * t)", 0.0005, 0.0205), 0.001, 1e-15));
+  CHECK(near(leap("step(0.50003, t) - step(0.50004, t)", 0.49, 0.51), 0.50003, 1e-15));
+  CHECK(near(leap("step(0.99, fract(10 * t))", 0.095, 0.105), 0.099, 1e-14));
   CHECK(leap("step(0.5, t)", 0.49, 0.51) == 0.5);
   CHECK(leap("step(0.5, t)", 0.49, 0.5) == 0.5);
   CHECK(leap("step(0.5, t)", 0.5, 0.51) == never);

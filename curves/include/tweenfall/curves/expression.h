@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tweenfall {
@@ -61,12 +62,20 @@ class Expression {
   /// @param variables  as many as were named
   [[nodiscard]] Sample<double> sample(std::span<const Sample<double>> variables, Side side = Side::out) const noexcept;
 
-  /// Names and arguments, "clamp(x, low, high)", in the order the documentation lists them.
+  /// Whether it reads the variable of that number.
+  [[nodiscard]] bool reads(std::size_t variable) const noexcept;
+  /// Its parts that may jump from one value to another, each as an expression of the same variables, inner ones first:
+  /// calls of sign, floor, ceil, round, fract, mod, step, tan and atan2, and quotients.
+  [[nodiscard]] std::vector<Expression> jumping_parts() const;
+
+  /// Names and what they take, "clamp(x, low, high)", in the order the documentation lists them.
   [[nodiscard]] static std::vector<std::string> functions();
 
   struct Program;  ///< private to the library
 
  private:
+  explicit Expression(std::shared_ptr<const Program> program) : program_(std::move(program)) {}
+
   std::shared_ptr<const Program> program_;
 };
 

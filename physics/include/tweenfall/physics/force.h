@@ -96,7 +96,12 @@ struct Vortex {
 };
 
 /// A force by formulas of x, y, z (of the center of mass, m), vx, vy, vz (m/s), t (time of the world, s) and mass (kg).
-/// A component that has no finite value counts as 0.
+/// Where one has no finite value 0 stands in.
+///
+/// What leaps in it by t alone (floor(t), x * step(0.5, t), ...) does so at one instant everywhere: times within a
+/// billionth of a second are the leap's, and a stage ends a step there. What leaps by place, or by place and time as a
+/// front does, is met at the ends of steps: where something is thinner than the way of a body in a step, the body may
+/// pass it unfelt, and `inspect` tells.
 class ForceFormula {
  public:
   using Parameter = Expression::Parameter;
@@ -111,10 +116,20 @@ class ForceFormula {
   /// @throws ExpressionError
   [[nodiscard]] static ForceFormula potential(std::string energy, std::vector<Parameter> parameters = {});
 
-  [[nodiscard]] Vec3 force(double mass, const Vec3& position, const Vec3& velocity, double time) const noexcept;
-  /// J; empty unless it was made from a potential.
+  /// @param side  of a leap by the time
+  [[nodiscard]] Vec3 force(double mass, const Vec3& position, const Vec3& velocity, double time,
+                           Side side = Side::out) const noexcept;
+  /// J; none unless it was made from a potential.
   [[nodiscard]] std::optional<double> energy(double mass, const Vec3& position, double time) const noexcept;
   [[nodiscard]] bool reads_time() const noexcept { return reads_time_; }
+  /// The first leap by the time alone in (from, to], s; infinity for none. Those that undo each other within an eighth
+  /// of that may go unseen where one function makes both, as step(0.999, sin(200*t)) does.
+  [[nodiscard]] double next_leap(double from, double to) const noexcept;
+  /// Where a body on its way through a straight piece of a step meets what leaps by place.
+  /// @param dt  duration of the way from one place to the other, s
+  /// @return seconds since its beginning, in order; up to eight
+  [[nodiscard]] std::vector<double> leaps_on_way(double mass, const Vec3& from, const Vec3& to, double time,
+                                                 double dt) const;
 
   [[nodiscard]] const std::vector<std::string>& texts() const noexcept { return texts_; }  ///< three, or one potential
   [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
@@ -128,6 +143,7 @@ class ForceFormula {
   std::vector<std::string> texts_;
   std::vector<Parameter> parameters_;
   std::vector<Expression> expressions_;
+  std::vector<Expression> leaping_by_time_, leaping_by_place_;  ///< parts of them
   bool reads_time_ = false;
 };
 

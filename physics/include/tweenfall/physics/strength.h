@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tweenfall {
 
@@ -29,7 +30,9 @@ class Strength {
   [[nodiscard]] bool changes(double from, double to) const noexcept;
 
   [[nodiscard]] const std::optional<Curve<double>>& curve() const noexcept { return curve_; }
-  [[nodiscard]] const std::string& text() const noexcept { return text_; }  ///< of a formula; else empty
+  [[nodiscard]] const std::string& text() const noexcept { return text_; }  ///< of a formula
+  /// The parts of a formula that leap from one value to another.
+  [[nodiscard]] const std::vector<Expression>& leaping_parts() const noexcept { return leaping_; }
 
   [[nodiscard]] bool operator==(const Strength& other) const noexcept;
 
@@ -38,6 +41,7 @@ class Strength {
   std::optional<Curve<double>> curve_{};
   std::string text_{};
   std::optional<Expression> formula_{};
+  std::vector<Expression> leaping_{};  ///< parts of it that leap
 };
 
 }  // namespace tweenfall

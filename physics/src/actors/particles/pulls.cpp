@@ -40,6 +40,7 @@ void add_medium(const Medium& medium, std::size_t count, const Lists& speeds, Pu
 struct Adding {
   const Pulling& pulling;
   double strength, time;
+  Side side;
   std::size_t count;
   const Lists &places, &speeds;
   Pulls& pulls;
@@ -76,7 +77,8 @@ struct Adding {
     }
   }
   void operator()(const ForceFormula& kind) const {
-    each([&](const Vec3& place, const Vec3& velocity) { return kind.force(pulling.mass, place, velocity, time); });
+    each(
+        [&](const Vec3& place, const Vec3& velocity) { return kind.force(pulling.mass, place, velocity, time, side); });
   }
   void operator()(const Field& kind) const {
     each([&](const Vec3& place, const Vec3& velocity) { return kind(pulling.mass, place, velocity, time); });
@@ -115,7 +117,9 @@ void find_pulls(const Pulling& pulling, std::size_t count, const Lists& places, 
     const double strength = instant == Instant::start    ? entry.start
                             : instant == Instant::middle ? entry.middle
                                                          : entry.end;
-    std::visit(Adding{pulling, strength, time, count, places, speeds, pulls}, *entry.force);
+    std::visit(
+        Adding{pulling, strength, time, instant == Instant::end ? Side::in : Side::out, count, places, speeds, pulls},
+        *entry.force);
   }
 }
 

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "forces/formula_leaps.h"
 #include "forces/kinds/kinds.h"
 
 namespace tweenfall {
@@ -13,7 +16,7 @@ const std::array<std::string, variables_of_force>& variable_names() {
   static const std::array<std::string, variables_of_force> names{"x", "y", "z", "mass", "t", "vx", "vy", "vz"};
   return names;
 }
-constexpr std::size_t variables_of_potential = 5;
+constexpr std::size_t variables_of_potential = 5, time_variable = 4;
 
 double finite_or_zero(double value) {
   return std::isfinite(value) ? value : 0;
@@ -27,16 +30,13 @@ ForceFormula::ForceFormula(Texts texts, std::vector<Parameter> parameters)
   const std::span<const std::string> names(forces::variable_names().data(), texts_.size() == 1
                                                                                 ? forces::variables_of_potential
                                                                                 : forces::variables_of_force);
-  std::vector<std::string> timeless(names.begin(), names.end());
-  std::erase(timeless, "t");
   for (const std::string& text : texts_) {
-    expressions_.emplace_back(text, names, parameters_);
-    try {
-      static_cast<void>(Expression(text, timeless, parameters_));
-    } catch (const ExpressionError&) {
-      reads_time_ = true;
-    }
+    const Expression& formula = expressions_.emplace_back(text, names, parameters_);
+    reads_time_ = reads_time_ || formula.reads(forces::time_variable);
+    for (const Expression& part : formula.jumping_parts())
+      if (part.reads(0) || part.reads(1) || part.reads(2)) leaping_by_place_.push_back(part);
   }
+  leaping_by_time_ = forces::leaping_parts(expressions_, forces::time_variable, names.size());
 }
 
 ForceFormula::ForceFormula(std::array<std::string, 3> force, std::vector<Parameter> parameters)
@@ -46,7 +46,9 @@ ForceFormula ForceFormula::potential(std::string energy, std::vector<Parameter> 
   return {Texts{{std::move(energy)}}, std::move(parameters)};
 }
 
-Vec3 ForceFormula::force(double mass, const Vec3& position, const Vec3& velocity, double time) const noexcept {
+Vec3 ForceFormula::force(double mass, const Vec3& position, const Vec3& velocity, double time,
+                         Side side) const noexcept {
+  time = forces::beside_leaps(leaping_by_time_, forces::time_variable, time, side);
   std::array<Sample<double>, forces::variables_of_force> at{};
   const std::array<double, forces::variables_of_force> values{position.x(), position.y(), position.z(), mass,
                                                               time,         velocity.x(), velocity.y(), velocity.z()};
@@ -62,6 +64,41 @@ Vec3 ForceFormula::force(double mass, const Vec3& position, const Vec3& velocity
   return force;
 }
 
+double ForceFormula::next_leap(double from, double to) const noexcept {
+  double first = std::numeric_limits<double>::infinity();
+  for (const Expression& part : leaping_by_time_)
+    first = std::min(first, forces::next_leap(forces::by_time(part, forces::time_variable), from, std::min(to, first)));
+  return first;
+}
+
+std::vector<double> ForceFormula::leaps_on_way(double mass, const Vec3& from, const Vec3& to, double time,
+                                               double dt) const {
+  constexpr std::size_t most = 8;
+  const Vec3 velocity = (to - from) / dt;
+  std::vector<double> leaps;
+  for (const Expression& part : leaping_by_place_) {
+    const auto along = [&](double since, Side side) {
+      const Vec3 at = from + since * velocity;
+      const std::array<Sample<double>, forces::variables_of_force> there{{{at.x(), velocity.x(), 0},
+                                                                          {at.y(), velocity.y(), 0},
+                                                                          {at.z(), velocity.z(), 0},
+                                                                          {mass, 0, 0},
+                                                                          {time + since, 1, 0},
+                                                                          {velocity.x(), 0, 0},
+                                                                          {velocity.y(), 0, 0},
+                                                                          {velocity.z(), 0, 0}}};
+      return part.sample(there, side);
+    };
+    for (double since = 0; leaps.size() < most;) {
+      since = forces::next_leap(along, since, dt);
+      if (!(since <= dt)) break;
+      leaps.push_back(since);
+    }
+  }
+  std::ranges::sort(leaps);
+  return leaps;
+}
+
 std::optional<double> ForceFormula::energy(double mass, const Vec3& position, double time) const noexcept {
   if (expressions_.size() != 1) return std::nullopt;
   const std::array<Sample<double>, forces::variables_of_potential> at{
@@ -73,7 +110,8 @@ namespace forces {
 
 Effect effect_of(const ForceFormula& kind, double strength, const Subject& subject, const Moment& moment) {
   Effect effect;
-  effect.force = strength * kind.force(subject.body.mass().mass, subject.at.center, subject.at.linear, moment.time);
+  effect.force =
+      strength * kind.force(subject.body.mass().mass, subject.at.center, subject.at.linear, moment.time, moment.side);
   return effect;
 }
 

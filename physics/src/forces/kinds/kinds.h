@@ -23,7 +23,8 @@ struct Effect {
 /// All bodies at the instant of evaluation.
 class Moment {
  public:
-  Moment(const std::vector<state::Body>& all, const Vec3& pull, double when) : bodies(all), gravity(pull), time(when) {}
+  Moment(const std::vector<state::Body>& all, const Vec3& pull, double when, Side which = Side::out)
+      : bodies(all), gravity(pull), time(when), side(which) {}
   Moment(const Moment&) = delete;
   Moment& operator=(const Moment&) = delete;
   virtual ~Moment() = default;
@@ -32,6 +33,7 @@ class Moment {
   const std::vector<state::Body>& bodies;
   Vec3 gravity;
   double time;  ///< of the world, s
+  Side side;    ///< of what leaps then
 };
 
 /// A body at that instant.

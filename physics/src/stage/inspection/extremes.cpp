@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "actors/soft/chain_factor.h"
 #include "forces/integrators/integrators.h"
 #include "forces/pace.h"
 #include "queries/body_scene.h"
@@ -95,6 +96,53 @@ class Finder {
       away = std::max(away, place.cwiseAbs().maxCoeff());
     if (away > farthest)
       tell(Part::soft, soft, "reaches " + brief_text(away) + " m from the origin; up to 1e9 m goes well");
+    look_at_load(soft);
+  }
+
+  /// Nodes under tension T swing across their edge by w^2 = 4 T / (length mass). By positions that is found from the
+  /// directions that edges have, as in an explicit step, which w h > 2 throws; passes over them find it anew.
+  void look_at_load(std::size_t soft) {
+    const auto& list = state_.softs->list;
+    if (soft >= list.size()) return;
+    const SoftSettings& made = soft_settings(state_.world, list[soft].second);
+    double h = description_.step;
+    for (const auto& [name, id] : list) h = std::min(h, *soft_settings(state_.world, id).sub_step);
+    if (made.solver == SoftSolver::springs) return look_at_stiffness(soft, made, h);
+    const std::vector<state::Body>& bodies = queries::bodies_of(state_.world);
+    for (const auto& [pin, force] : soft_pins(state_.world, list[soft].second)) {
+      if (pin.body == BodyId{} || bodies[pin.body.index].immovable()) continue;
+      std::ptrdiff_t bearing = 0;
+      for (const auto& [name, id] : list)
+        bearing += std::ranges::count(soft_pins(state_.world, id), pin.body,
+                                      [](const SoftPinReading& reading) { return reading.pin.body; });
+      const double load = bodies[pin.body.index].mass().mass * state_.gravity.norm() / static_cast<double>(bearing);
+      for (const SoftEdge& edge : made.edges) {
+        if (edge.a != pin.node && edge.b != pin.node) continue;
+        const double mass = made.masses[edge.a == pin.node ? edge.b : edge.a];
+        const double longest = std::sqrt(*edge.length * mass / load * made.iterations);
+        if (!(h > longest)) continue;
+        tell(Part::soft, soft,
+             "may not hold \"" + description_.nodes[state_.node_of[pin.body.index]].name + "\", whose " +
+                 brief_text(load) + " N hang on nodes of " + brief_text(mass) +
+                 " kg: by positions that takes sub-steps " + "of less than " + brief_text(longest) +
+                 " s, or more iterations; by springs any will do");
+        return;
+      }
+    }
+  }
+
+  /// What is too wide to be solved at once is left to conjugate gradients, which have an end.
+  void look_at_stiffness(std::size_t soft, const SoftSettings& made, double h) {
+    constexpr double stiffest = 1e6;  // against the mass of a node
+    if (soft::ChainFactor::reach_of(made) > 0) return;
+    for (const SoftEdge& edge : made.edges) {
+      const double most = stiffest / (h * h * (1 / made.masses[edge.a] + 1 / made.masses[edge.b]));
+      if (!(edge.stiffness > most)) continue;
+      tell(Part::soft, soft,
+           "has springs of " + brief_text(edge.stiffness) + " N/m; between nodes as light, sub-steps of " +
+               brief_text(h) + " s bear up to " + brief_text(most) + " N/m: beyond that it may gain energy");
+      return;
+    }
   }
 
   // Forces that change faster than steps can follow
@@ -162,6 +210,9 @@ class Finder {
       return *state_.body(state_.node_of[body.index]);
     };
     for (std::size_t i = 1; i <= steps; ++i) {
+      std::vector<Vec3> before;
+      for (const state::Body& body : queries::bodies_of(trial)) before.push_back(body.center);
+      const double began = trial.time();
       try {
         trial.step(description_.step);
       } catch (const SoftNotFinite& fault) {
@@ -181,9 +232,43 @@ class Finder {
           if (velocity.norm() > fastest)
             tell(Part::soft, soft,
                  "is thrown: after " + brief_text(trial.time()) + " s it moves at " + brief_text(velocity.norm()) +
-                     " m/s, by something too strong for the step");
+                     " m/s, by what is too strong for the step");
+      for (std::size_t force = 0; force < description_.forces.size(); ++force)
+        if (const auto* field = std::get_if<ForceFormula>(&description_.forces[force].force))
+          follow_through(*field, force, trial, before, began);
       if (!out_.extremes.empty()) return;
     }
+  }
+
+  /// Whether a body went, in a step, all the way through a place where a field is another than before it and behind.
+  void follow_through(const ForceFormula& field, std::size_t index, const World& trial, const std::vector<Vec3>& before,
+                      double began) {
+    const std::vector<state::Body>& bodies = queries::bodies_of(trial);
+    std::vector<std::uint32_t> all;
+    for (const StagedBody& body : state_.bodies) all.push_back(body.id.index);
+    forces::each_acted(queries::forces_of(trial)[index], bodies, all, [&](std::uint32_t i) {
+      const state::Body& body = bodies[i];
+      if (body.immovable()) return;
+      const Vec3 way = body.center - before[i], velocity = way / description_.step;
+      const double mass = body.mass().mass;
+      const std::vector<double> leaps = field.leaps_on_way(mass, before[i], body.center, began, description_.step);
+      for (std::size_t k = 1; k < leaps.size(); ++k) {
+        const auto force_at = [&](double since) {
+          return field.force(mass, before[i] + since * velocity, velocity, began + since);
+        };
+        const double within = leaps[k] - leaps[k - 1];
+        const Vec3 inside = force_at(leaps[k - 1] + 0.5 * within);
+        if (!(within > 1e-9) || inside == force_at(leaps[k - 1] - 1e-9) || inside == force_at(leaps[k] + 1e-9))
+          continue;
+        tell(Part::force, index,
+             "\"" + description_.nodes[state_.node_of[i]].name +
+                 "\" goes through a place where this field is another, " + brief_text(within * velocity.norm()) +
+                 " m long, within one step, in which it goes " + brief_text(way.norm()) +
+                 " m: what the field does there may be passed by. Steps of less than " + brief_text(within) +
+                 " s show it");
+        return;
+      }
+    });
   }
 
   const StageState& state_;
