@@ -91,9 +91,10 @@ struct SoftSettings {
   /// Longest sub-step, s; absent: 1/1920 for constraints, 1/240 for springs. All soft bodies of a world use the
   /// shortest; no step takes more than 1000 sub-steps.
   std::optional<double> sub_step{};
-  /// Passes over all constraints in a sub-step, there and back, 1 to 1000; springs ignore it. A body that is stiff in
-  /// bending, strongly damped or loaded with far more than its own mass needs several passes, or shorter sub-steps: too
-  /// few make it too soft.
+  /// Passes over all constraints in a sub-step, there and back, 1 to 1000; springs do not read it. What bends stiffly,
+  /// is damped hard or bears far more than its own mass needs several, or shorter sub-steps: until they agree it gives
+  /// way too much. What hangs with T newtons on nodes of mass m, its edges l long, falls where a sub-step is longer
+  /// than about sqrt(iterations l m / T); `inspect` tells.
   int iterations = 1;
   double radius = 0.01;       ///< of the nodes when they collide with bodies, m; > 0
   double friction = 0.5;      ///< with bodies: sqrt(f1 f2)

@@ -7,14 +7,16 @@
 
 namespace tweenfall::soft {
 
-/// A symmetric matrix of three-by-three blocks, of which only those near the diagonal are not zero: that of a chain,
-/// whose joined nodes have neighboring numbers. It is solved in a time proportional to its nodes,
-/// while conjugate gradients need a step per node until both ends affect each other.
+/// A symmetric matrix of blocks of three by three, of which only those near the diagonal are not zero: that of a chain,
+/// whose nodes are joined to those of neighboring numbers, or of a cloth or a box, whose rows are. It is solved in a
+/// time that grows with the nodes and the square of how far they reach, where conjugate gradients need a step for each
+/// of them until one end has heard of the other, and of what is very stiff never come to an end.
 class ChainFactor {
  public:
   /// The greatest difference between the numbers of joined nodes; 0 if it is too large.
   [[nodiscard]] static std::size_t reach_of(const SoftSettings& made);
-  static constexpr std::size_t most_reach = 3;
+  /// Of a chain, and of what is worth it where it is stiff.
+  static constexpr std::size_t most_of_chain = 3, most_reach = 64;
 
   /// Starts with a matrix of zeros. @param reach  1 to `most_reach`
   void clear(std::size_t nodes, std::size_t reach);

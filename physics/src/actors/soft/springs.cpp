@@ -23,8 +23,13 @@ namespace tweenfall::soft {
 
 namespace {
 
-constexpr int most_newton_steps = 12, most_halvings = 12, most_ventured = 2;
-/// Stiffness of a contact, relative to the mass that it moves in a sub-step.
+/// Newton's steps; more where each is exact: what is stiff turns along a valley as narrow as it is stiff.
+constexpr int most_newton_steps = 12, most_exact_steps = 60;
+constexpr int most_halvings = 12, most_ventured = 2;
+/// How many times as stiff as heavy in a sub-step what is no chain is when its matrix is worth being factored, over the
+/// square of how far it reaches.
+constexpr double stiff_enough = 100;
+/// Against the mass that a contact moves in a sub-step: how stiff it is.
 constexpr double contact_stiffness = 1e4;
 
 /// Velocities of all nodes, and then of the bodies: linear and angular ones in turn.
@@ -50,11 +55,11 @@ class Springs {
         x_(step.body.positions),
         nodes_(x_.size()),
         energies_(step.body, step.h),
-        reach_(ChainFactor::reach_of(made_)) {}
+        reach_(worth_factoring(made_, step.h) ? ChainFactor::reach_of(made_) : 0) {}
 
   void solve() {
     begin();
-    for (int i = 0; i < most_newton_steps && improve(); ++i) {
+    for (int i = 0; i < (chained_ ? most_exact_steps : most_newton_steps) && improve(); ++i) {
     }
     if (ventured_ > 0) v_ = trusted_.v;
     if (step_.held.empty() && !touches()) keep_momentum();
@@ -62,6 +67,14 @@ class Springs {
   }
 
  private:
+  [[nodiscard]] static bool worth_factoring(const SoftSettings& made, double h) {
+    const auto reach = static_cast<double>(ChainFactor::reach_of(made));
+    if (reach <= ChainFactor::most_of_chain) return true;
+    return std::ranges::any_of(made.edges, [&](const SoftEdge& edge) {
+      const double stiff = edge.stiffness * h * h * (1 / made.masses[edge.a] + 1 / made.masses[edge.b]);
+      return stiff > stiff_enough * reach * reach;
+    });
+  }
   [[nodiscard]] std::size_t linear_of(std::uint32_t partner) const { return nodes_ + 2 * std::size_t{partner}; }
 
   void begin() {
