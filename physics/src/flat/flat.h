@@ -52,7 +52,8 @@ class Flat {
   void exert(const state::WorldState& world);
   /// @throws NotFinite
   void step(double dt, double parts);
-  /// Writes to the bodies where they are now, and to the world what touches.
+  [[nodiscard]] int sub_steps() const { return world_.sub_steps(); }  ///< of the last step
+  /// Tells the bodies where they are now, and the world what touches.
   void hand_back(state::WorldState& world);
   /// Writes the forces of joints in the last step, and how far the joints have turned.
   void hand_back_joints(state::WorldState& world, double dt) const;

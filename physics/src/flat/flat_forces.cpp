@@ -63,7 +63,10 @@ void Flat::exert(const state::WorldState& world) {
 void World::Implementation::push_in_plane(double dt) {
   flat::Flat& plane = flat.own();
   plane.begin_pushes(*this);
-  if (forces.empty()) return;
+  if (forces.empty()) {
+    loads.assign(bodies.size(), {});
+    return;
+  }
   forces::gather_loads(bodies, watched, forces, settings, time, dt, workers(), loads, stiff_springs, flight);
   check_loads(time + dt);
   for (const std::uint32_t i : watched) {

@@ -164,7 +164,8 @@ void World::Implementation::step(double dt, double parts) {
     if (looked_at[k] && meetings[k].count > 0) active.push_back(k);
   const inner::Effort effort =
       settings.sub_steps ? inner::Effort{*settings.sub_steps} : depth.effort_for(bodies, meetings, active);
-  const double h = dt / effort.sub_steps;
+  sub_steps = effort.sub_steps;
+  const double h = dt / sub_steps;
   for (const std::uint32_t i : moving)
     if (bodies[i].damped && bodies[i].movable) damp(i, h);
   // In shorter steps impulses are smaller.

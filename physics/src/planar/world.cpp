@@ -273,6 +273,10 @@ double World::kinetic_energy() const {
   }
   return energy;
 }
+int World::sub_steps() const noexcept {
+  return implementation_ ? implementation_->sub_steps : 0;
+}
+
 double World::time() const noexcept {
   return implementation_ ? implementation_->time : 0;
 }

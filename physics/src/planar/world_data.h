@@ -44,6 +44,7 @@ struct World::Implementation {
   std::vector<Contact> contacts, contacts_before;
   std::vector<EndedContact> ended;
   std::vector<SensorOverlap> overlaps;
+  int sub_steps = 0;
 
   // Memory for a step
   double step_length = 0;             ///< s

@@ -119,8 +119,9 @@ class World {
   [[nodiscard]] bool saturated(BodyId body) const;  ///< its drive pulled with its greatest force in the last step
   [[nodiscard]] Vec2 reaction(
       BodyId body) const;  ///< sum of contact impulses on a keyed or fixed body since it was added, N s
-  [[nodiscard]] double kinetic_energy() const;  ///< of all free and driven bodies, J
-  [[nodiscard]] double time() const noexcept;   ///< sum of the steps, s
+  [[nodiscard]] double kinetic_energy() const;   ///< of all free and driven bodies, J
+  [[nodiscard]] double time() const noexcept;    ///< sum of the steps, s
+  [[nodiscard]] int sub_steps() const noexcept;  ///< into which the last step was divided; 0 before the first
 
   // Changes; each wakes the body, except forces that stay the same
   void set_motion(BodyId body, const Motion& motion);

@@ -262,7 +262,8 @@ void World::Implementation::advance_softs(double dt) {
     if (body.alive) longest = longest > 0 ? std::min(longest, *body.made->sub_step) : *body.made->sub_step;
   if (!(longest > 0)) return;
   const double count = std::clamp(std::ceil(dt / longest - 1e-9), 1.0, soft::most_sub_steps), h = dt / count;
-  soft::Partners partners(bodies, soft_starts, loads, settings.plane, dt);
+  const int sub_steps = settings.plane == WorldPlane::none ? 1 : flat.own().sub_steps();
+  soft::Partners partners(bodies, soft_starts, loads, settings, sub_steps, dt);
   const std::vector<soft::Blowing> winds = soft::winds_at(forces, time);
   std::vector<soft::Course> courses;
   std::vector<const soft::SoftBody*> there;

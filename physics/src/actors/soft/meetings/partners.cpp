@@ -1,11 +1,15 @@
 #include "actors/soft/meetings/partners.h"
 
+#include <tweenfall/curves/elementary.h>
 #include <tweenfall/curves/hermite.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 #include "flat/axes.h"
+#include "forces/integrators/integrators.h"
 
 namespace tweenfall::soft {
 
@@ -43,18 +47,58 @@ Place on_course(const Partner& partner, double time, double h, double dt) {
   return place;
 }
 
-/// A step takes drag as it is at its end, and so has kept only a part of what accelerated the body. The same part of
-/// what soft bodies give remains: it is as if the body had that much more mass.
-void resist(const forces::Load& load, double dt, Partner& partner) {
-  if (load.drag > 0) {
-    partner.mass *= 1 + dt * load.drag;
+/// How many times as much mass a body has, where drag has left a part of what an even force gave it through a step.
+/// Of what soft bodies give it drag leaves as much.
+/// @param slowed  drag times the length of the step, taken by an integrator: (R(z) - 1) / z with z = -slowed, R being
+///                its growth factor. Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 1996, IV.2.
+double heavier(Integrator integrator, double slowed) {
+  const double z = -slowed;
+  double left = 1;
+  switch (integrator) {
+    case Integrator::explicit_euler:
+      break;
+    case Integrator::midpoint:
+    case Integrator::trapezoid:
+    case Integrator::verlet:
+      left = 1 + z / 2;
+      break;
+    case Integrator::rk4:
+      left = 1 + z / 2 * (1 + z / 3 * (1 + z / 4));
+      break;
+    case Integrator::implicit_trapezoid:
+      return 1 - z / 2;
+    case Integrator::exact_quadratic:
+    case Integrator::semi_implicit_euler:
+    case Integrator::backward_euler:
+      return 1 - z;
+  }
+  // Beyond that the integrator itself makes what it should slow grow.
+  constexpr double least_left = 0.1;
+  return 1 / std::max(left, least_left);
+}
+
+/// The same of damping in a plane: in each of its sub-steps what there is then, with what came in it, fades.
+double heavier_in_plane(double damping, int sub_steps, double dt) {
+  if (!(damping > 0)) return 1;
+  double left = 0;
+  for (int i = 1; i <= sub_steps; ++i) left += elementary::exp(-damping * dt * i / sub_steps) / sub_steps;
+  return 1 / std::max(left, 1e-9);
+}
+
+void resist(const forces::Load& load, Integrator integrator, double angular_damping, double dt, Partner& partner) {
+  const bool asks = forces::asking(integrator) != nullptr;
+  if (const double drag = asks ? load.met_drag : load.drag; drag > 0) {
+    partner.mass *= heavier(integrator, dt * drag);
     partner.inverse_mass = 1 / partner.mass;
   }
-  if (load.angular_drag > 0 || load.angular_damping > 0) {
-    partner.inertia =
-        (1 + dt * load.angular_damping) * partner.inertia + Mat3(Vec3::Constant(dt * load.angular_drag).asDiagonal());
-    partner.inverse_inertia = partner.inertia.inverse();
-  }
+  const double angular_drag = asks ? load.met_angular_drag : load.angular_drag;
+  if (!(angular_drag > 0 || angular_damping > 0)) return;
+  const double mean = 3 / partner.inverse_inertia.trace(), rate = angular_damping + angular_drag / mean;
+  // Of what turns, each axis has a drag of its own: the share of the integrator is that of the mean one.
+  const double share = asks ? (heavier(integrator, dt * rate) - 1) / (dt * rate) : 1;
+  partner.inertia = (1 + share * dt * angular_damping) * partner.inertia +
+                    Mat3(Vec3::Constant(share * dt * angular_drag).asDiagonal());
+  partner.inverse_inertia = partner.inertia.inverse();
 }
 
 }  // namespace
@@ -75,16 +119,30 @@ std::uint32_t Partners::number_of(std::uint32_t index) {
     if (plane_ != WorldPlane::none) {
       // In a planar world, everything turns it about the normal alone.
       const int normal = flat::Axes::of(plane_).normal;
-      const double moment = body.mass().inertia(normal, normal);
+      const double damping = body.makeup->linear_damping;
+      const double drag = std::max(0.0, loads_[index].drag - damping);
+      partner.mass *= (1 + dt_ * drag) * heavier_in_plane(damping, sub_steps_, dt_);
+      partner.inverse_mass = 1 / partner.mass;
+      const double moment =
+          body.mass().inertia(normal, normal) * heavier_in_plane(body.makeup->angular_damping, sub_steps_, dt_);
       partner.inertia = moment * Mat3::Identity();
       partner.inverse_inertia = (1 / moment) * Mat3::Identity();
     } else {
-      resist(loads_[index], dt_, partner);
+      resist(loads_[index], integrator_, body.makeup->angular_damping, dt_, partner);
     }
     const Vec3 mean = 0.5 * (partner.start.twist.linear + partner.end.twist.linear);
     const Vec3 off = partner.end.center - partner.start.center - dt_ * mean;
     const double gained = dt_ * (partner.end.twist.linear - partner.start.twist.linear).norm();
     partner.along_parabola = off.norm() <= 1e-9 + 0.01 * gained;
+    if (!partner.along_parabola && gained > 0 &&
+        (plane_ != WorldPlane::none || integrator_ != Integrator::exact_quadratic)) {
+      // So much drag may make of it; a blow makes more, or something aside.
+      constexpr double little = 0.25;
+      const Vec3 gain = partner.end.twist.linear - partner.start.twist.linear;
+      const double ahead = off.dot(gain) / gain.squaredNorm();
+      partner.along_parabola = std::abs(ahead) <= little * dt_ && (off - ahead * gain).norm() <= 1e-9 + 0.01 * gained;
+      if (partner.along_parabola) partner.ahead = ahead;
+    }
   }
   partner.now = partner.start;
   all_.push_back(partner);
@@ -138,8 +196,8 @@ void Partners::finish(double h) {
       if (body.immovable()) body.extra.own().reaction += partner.taken;
       continue;
     }
-    // As for free motion, half of the last sub-step's gain belongs to the time before it.
-    body.center = partner.end.center + partner.shift - 0.5 * h * partner.push;
+    // As for what moves freely, half of the last sub-step's gain belongs to the time before it.
+    body.center = partner.end.center + partner.shift + (partner.ahead - 0.5 * h) * partner.push;
     body.twist.linear += partner.push;
     body.twist.angular += partner.spin;
     Quat rotation = exp_map(partner.turn - 0.5 * h * partner.spin) * partner.end.rotation;

@@ -23,7 +23,8 @@ struct Partner {
   double mass = 0, inverse_mass = 0;                            ///< kg; inverse 0 for an immovable body
   Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  ///< world axes
   Place start, end;                                             ///< of the step
-  bool along_parabola = false;  ///< its velocities match its displacement: no blow has changed them
+  bool along_parabola = false;  ///< its velocities belong to its displacement: no blow has changed them
+  double ahead = 0;  ///< s; times the velocity it has gained, by how much its integrator puts it farther than that
   // Off its course so far
   Vec3 shift{0, 0, 0}, turn{0, 0, 0};  ///< m, rad
   Vec3 push{0, 0, 0}, spin{0, 0, 0};   ///< m/s, rad/s
@@ -58,10 +59,17 @@ struct Gift {
 class Partners {
  public:
   /// @param starts  by body, as they were before the step
-  /// @param loads  of the step, by body; those of a planar world do not include resistance
+  /// @param loads      of the step, by body
+  /// @param sub_steps  of a world in a plane
   Partners(std::vector<state::Body>& bodies, const std::vector<Place>& starts, const std::vector<forces::Load>& loads,
-           WorldPlane plane, double dt)
-      : bodies_(bodies), starts_(starts), loads_(loads), plane_(plane), dt_(dt) {}
+           const WorldSettings& settings, int sub_steps, double dt)
+      : bodies_(bodies),
+        starts_(starts),
+        loads_(loads),
+        plane_(settings.plane),
+        integrator_(settings.integrator),
+        sub_steps_(sub_steps),
+        dt_(dt) {}
 
   [[nodiscard]] std::uint32_t number_of(std::uint32_t body);
   [[nodiscard]] Partner& operator[](std::uint32_t number) { return all_[number]; }
@@ -85,6 +93,8 @@ class Partners {
   const std::vector<Place>& starts_;
   const std::vector<forces::Load>& loads_;
   WorldPlane plane_;
+  Integrator integrator_;
+  int sub_steps_;
   double dt_;
   std::vector<Partner> all_;
   std::vector<std::uint32_t> numbers_;  ///< by body, plus 1
