@@ -178,7 +178,7 @@ const Table<Play>& play_table() {
                  {"weight", play_weight_form, "over what is below", {read_play_weight, "1"}},
                  {"fade_in", fade_form, "stage seconds from its start in which the weight comes", fade(&Play::fade_in)},
                  {"fade_out", fade_form, "stage seconds to its end in which it goes", fade(&Play::fade_out)},
-                 fill_row<Play>(&Play::fill),
+                 filling<Play>("fill", &Play::fill),
                  {"mask", mask_form, "nodes it drives; absent: all", {read_mask}}});
   return table;
 }

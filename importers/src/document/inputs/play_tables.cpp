@@ -127,7 +127,7 @@ const Table<Started>& start_table() {
        {"weight", weight_form, "", keys_of<Started>(true, of(&playing::Start::weight))},
        {"fade_in", fields::fade_form, "", fade(&playing::Start::fade_in)},
        {"fade_out", fields::fade_form, "", fade(&playing::Start::fade_out)},
-       fields::fill_row<Started>(of(&playing::Start::fill)),
+       fields::filling<Started>("fill", of(&playing::Start::fill)),
        {"mask", fields::FormOf::Make(mask_form), "nodes it drives; absent: all", {read_mask}}});
   return table;
 }
