@@ -9,6 +9,7 @@
 #include "stage/rules/played_tracks.h"
 #include "stage/rules/ramps.h"
 #include "stage/stage_data.h"
+#include "stage/time/in_order.h"
 #include "stage/whole_pose.h"
 #include "state/countable.h"
 
@@ -157,9 +158,7 @@ void take_piece(StageState& state, double step, std::span<const Command> command
     }
     handle_instant(state, step, commands, happenings, arrived);
   }
-  const auto begin = happenings.begin() + static_cast<std::ptrdiff_t>(first);
-  if (!std::ranges::is_sorted(begin, happenings.end(), {}, &Happening::time))
-    std::ranges::stable_sort(begin, happenings.end(), {}, &Happening::time);
+  bring_in_order(std::span(happenings).subspan(first), &Happening::time);
 }
 
 }  // namespace tweenfall::staging

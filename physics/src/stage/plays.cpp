@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "stage/stage_data.h"
+#include "stage/time/in_order.h"
 #include "stage/time/twins.h"
 
 namespace tweenfall::staging {
@@ -12,7 +13,7 @@ namespace tweenfall::staging {
 namespace {
 
 void tell(std::vector<FiredEvent> fired, std::vector<Happening>& happenings) {
-  if (!std::ranges::is_sorted(fired, {}, &FiredEvent::time)) std::ranges::stable_sort(fired, {}, &FiredEvent::time);
+  bring_in_order(fired, &FiredEvent::time);
   happenings.reserve(happenings.size() + fired.size());
   for (FiredEvent& event : fired) {
     Happening& happening = happenings.emplace_back();

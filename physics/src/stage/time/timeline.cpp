@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stage/time/in_order.h"
 #include "stage/time/twins.h"
 
 namespace tweenfall::staging {
@@ -149,7 +150,7 @@ void Timeline::command(Change change) {
 
 /// Among what is not told yet, each behind all that is not later.
 void Timeline::put_in(std::vector<Happening> caused) {
-  if (!std::ranges::is_sorted(caused, {}, &Happening::time)) std::ranges::stable_sort(caused, {}, &Happening::time);
+  bring_in_order(caused, &Happening::time);
   const double last = of_piece_ > told_ ? happenings_[of_piece_ - 1].time : -infinity;
   of_piece_ += static_cast<std::size_t>(std::ranges::lower_bound(caused, last, {}, &Happening::time) - caused.begin());
   const auto count = static_cast<std::ptrdiff_t>(happenings_.size());
