@@ -109,13 +109,13 @@ class StretchWalk {
 };
 
 /// Why the events of a clip are refused.
-std::string refusal(const Play& play, const Clip& clip, const std::string& stretch) {
+std::string refusal(const Play& play, const Clip& clip, double most, const std::string& stretch) {
   const Rounds rounds = rounds_of(play, clip);
   const bool around = rounds.mode != LoopMode::once;
   return "clip \"" + clip.name + "\" " +
          (around ? "goes around every " + number_text(rounds.length / play.speed.greatest()) + " s and " : "") +
-         "has more than a million events " + stretch + ": " + (around ? "lengthen its loop or " : "") +
-         "leave out its events";
+         "has more than " + (most == most_events ? "a million" : number_text(most)) + " events " + stretch + ": " +
+         (around ? "lengthen its loop or " : "") + "leave out its events";
 }
 
 }  // namespace
@@ -238,8 +238,8 @@ std::vector<FiredEvent> Player::events_between(const Clip& clip, double from, do
                static_cast<double>(clip.events.size());
     }
     if (bound > clips::most_events)
-      throw std::length_error(
-          clips::refusal(life->play, clip, "from " + number_text(from) + " s to " + number_text(to) + " s"));
+      throw std::length_error(clips::refusal(life->play, clip, clips::most_events,
+                                             "from " + number_text(from) + " s to " + number_text(to) + " s"));
     if (life->since < from) break;
   }
   std::vector<FiredEvent> fired;
@@ -283,7 +283,11 @@ std::optional<FiredEvent> first_event(const Play& play, const Clip& clip, double
   return Player(play, clip).first_event(clip, from, to, from_start, name);
 }
 
-std::string too_many_events(const Play& play, const Clip& clip, double seconds) {
+double most_events_in_step(const Clip& clip) noexcept {
+  return std::clamp(10.0 * static_cast<double>(clip.events.size()), 2e4, clips::most_events);
+}
+
+std::string too_many_events(const Play& play, const Clip& clip, double seconds, double most) {
   const double speed = play.speed.greatest();
   if (clip.events.empty() || speed == 0) return {};
   double plays = 1;
@@ -294,8 +298,8 @@ std::string too_many_events(const Play& play, const Clip& clip, double seconds) 
     if (const double count = play.loop.value_or(clip.loop).count; count > 0 && play.speed.is_constant())
       plays = std::min(plays, std::ceil(count) + 1);
   }
-  if (2 * plays * static_cast<double>(clip.events.size()) <= clips::most_events) return {};
-  return clips::refusal(play, clip, "within " + brief_text(seconds) + " s");
+  if (2 * plays * static_cast<double>(clip.events.size()) <= most) return {};
+  return clips::refusal(play, clip, most, "within " + brief_text(seconds) + " s");
 }
 
 }  // namespace tweenfall

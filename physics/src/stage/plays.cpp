@@ -75,10 +75,10 @@ void change_animation(StageState& state, const Animation& animation, double inst
 void change_play(StageState& state, const PlayChange& change, double step, std::vector<Happening>& happenings) {
   const Animation changed = state.animation->with_change(change);
   const Player& player = changed.players()[changed.player_named(change.play)];
-  if (const std::string fault = too_many_events(player.play(), changed.clips()[player.play().clip], step + sliver);
-      !fault.empty())
-    throw std::invalid_argument(fault);
-  std::vector<FiredEvent> news = player.events_of_change(changed.clips()[player.play().clip]);
+  const Clip& clip = changed.clips()[player.play().clip];
+  const std::string fault = too_many_events(player.play(), clip, step + sliver, most_events_in_step(clip));
+  if (!fault.empty()) throw std::invalid_argument(fault);
+  std::vector<FiredEvent> news = player.events_of_change(clip);
   change_animation(state, changed, change.time, std::move(news), step, happenings);
 }
 

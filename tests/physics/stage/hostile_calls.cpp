@@ -65,7 +65,7 @@ TEST_CASE("a stage refuses the clip that would have too many events in a step, b
   description.plays = {{.clip = 0, .at = 100}};
   CHECK_THROWS_WITH_AS(Stage{description}, doctest::Contains("clip \"buzz\" goes around every 1e-09 s"),
                        std::invalid_argument);
-  description.step = 1e-4;
+  description.step = 1e-6;
   CHECK_NOTHROW(Stage{description});
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("a play asked for a loop of too many events is refused at once, and go
   Stage stage(description);
   stage.advance(0.3);
   CHECK_THROWS_WITH_AS(stage.ask("beat", playing::Start{.clip = "beat", .to = 1e-300}),
-                       doctest::Contains("more than a million events"), std::invalid_argument);
+                       doctest::Contains("more than 20000 events"), std::invalid_argument);
   stage.advance(1);
   CHECK(stage.events().size() == 2);
 }
@@ -123,7 +123,7 @@ TEST_CASE(
     "tens of thousands of events in one step take a time that grows with their number, whatever is called among them") {
   StageDescription description = falling_ball();
   description.step = 1.0 / 60;
-  Clip buzz{.name = "buzz", .duration = 4e-7, .loop = {LoopMode::repeat, 0}}, score{.name = "score", .duration = 1};
+  Clip buzz{.name = "buzz", .duration = 1.7e-6, .loop = {LoopMode::repeat, 0}}, score{.name = "score", .duration = 1};
   buzz.events = {{.from = 0, .to = 0, .name = "a name that is too long to be kept within a string"}};
   for (int i = 1; i <= 20'000; ++i) score.events.push_back({.from = i / 40e3, .to = i / 40e3, .name = "note"});
   description.clips = {buzz, score};
@@ -131,7 +131,7 @@ TEST_CASE(
   Stage stage(description);
   stage.advance_to(1.7 / 60);
   const std::size_t before = stage.events().size();
-  CHECK(before > 60'000);
+  CHECK(before > 15'000);
   const double begin = test::processor_seconds();
   stage.apply_impulse(0, Vec3(0, 0, 1e-3), Vec3(0, 1, 0));
   CHECK(stage.events().size() == before);
@@ -139,7 +139,7 @@ TEST_CASE(
   stage.ask("score", playing::Seek{.time = 0.9, .events = true});
   CHECK(stage.events().size() == before + 20'000);
   stage.advance_to(2.0 / 60);
-  CHECK(stage.events().size() > before + 30'000);
+  CHECK(stage.events().size() > before + 20'000 + 2'000);
   CHECK(std::ranges::is_sorted(stage.events(), {}, &StageEvent::time));
   CHECK(test::processor_seconds() - begin < 1.5);
 }

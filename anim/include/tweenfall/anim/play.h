@@ -164,10 +164,14 @@ struct FiredEvent {
 [[nodiscard]] std::vector<FiredEvent> events_between(const Play& play, const Clip& clip, double from, double to,
                                                      bool from_start = false);
 
-/// Why `events_between` would refuse some stretch of `seconds` or less, in a text that names the clip; empty where it
-/// accepts all. Such a stage is refused before it runs.
+/// Why some stretch of `seconds` or less has more events than `most`, in a text that names the clip; empty where none
+/// has. A million is what `events_between` accepts. The events are counted from above, up to twice as many.
 /// @param seconds  >= 0
-[[nodiscard]] std::string too_many_events(const Play& play, const Clip& clip, double seconds);
+[[nodiscard]] std::string too_many_events(const Play& play, const Clip& clip, double seconds, double most = 1e6);
+
+/// How many of them a stage accepts in one step, since it keeps all: 20,000, and of a clip with many events those of a
+/// few rounds, up to a million.
+[[nodiscard]] double most_events_in_step(const Clip& clip) noexcept;
 
 /// The first of these events, not counting ends of intervals: of any or of one name. Fast, however many follow.
 [[nodiscard]] std::optional<FiredEvent> first_event(const Play& play, const Clip& clip, double from, double to,

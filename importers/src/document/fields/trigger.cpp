@@ -40,7 +40,11 @@ std::string trigger_instead_of(const json::Value& value) {
   if (value.is(json::Value::Kind::list))
     return "; say {\"all\": [...]} for this and that, {\"any\": [...]} for this or that";
   if (!value.is(json::Value::Kind::text)) return {};
-  if (value.text() == "contact") return "; say {\"contact\": {}}";
+  for (const auto& [word, written] :
+       {std::pair("contact", "{\"contact\": {}}"), std::pair("clip_end", "{\"clip_end\": true}"),
+        std::pair("asleep", "{\"asleep\": 0.5}"), std::pair("saturated", "{\"saturated\": 0.1}"),
+        std::pair("speed_peak", "{\"speed_peak\": true}")})
+    if (value.text() == word) return std::string("; say ") + written;
   const std::string name = json::on_one_line(value);
   return "; say {\"marker\": " + name + "} for an event of a clip that animates the body, or {\"event\": " + name +
          "} for one of any clip";
@@ -51,6 +55,7 @@ Form only_yes() {
   yes.kind = Form::Kind::boolean;
   yes.what = "true";
   yes.only_true = true;
+  yes.instead = [](const json::Value&) { return std::string("; say true"); };
   return yes;
 }
 
@@ -137,18 +142,25 @@ const Table<RuleBeingRead>& trigger_table() {
   const auto error = adds([](const json::Value& value, Rule&, Building&) { return when::Error{value.number()}; });
   const auto peak = adds([](const json::Value&, Rule&, Building&) { return when::SpeedPeak{}; });
   static const Table<Rule> table(
-      "a trigger", {{"at", &ValueForms::stage_time, "stage time", {read_instant}, false, {}, {"time"}},
-                    {"marker", &ValueForms::name, "an event of a clip that animates the body", marker},
-                    {"event", &ValueForms::name, "an event of any playing clip", event},
-                    {"clip_end", only_yes(), "the last play that animates the body is over", end},
-                    {"contact", form_of(contact_table()), "", contact, false, {}, {"oncollisionenter", "hit", "touch"}},
-                    {"asleep", &ValueForms::positive, "seconds of stillness", asleep},
-                    {"enter", form_of(passage_table<when::Enter>()), "into a sensor", enter},
-                    {"leave", form_of(passage_table<when::Leave>()), "out of a sensor", leave},
-                    {"saturated", &ValueForms::positive,
-                     "seconds for which a drive has been at its greatest force or torque", saturated},
-                    {"error", &ValueForms::positive, "m from the path, of a driven body", error},
-                    {"speed_peak", only_yes(), "the path of the body is as fast as it gets", peak}});
+      "a trigger",
+      {{"at", &ValueForms::stage_time, "stage time", {read_instant}, false, {}, {"time"}},
+       {"marker", &ValueForms::name, "an event of a clip that animates the body", marker},
+       {"event", &ValueForms::name, "an event of any playing clip", event},
+       {"clip_end", only_yes(), "the last play that animates the body is over", end},
+       {"contact",
+        form_of(contact_table()),
+        "",
+        contact,
+        false,
+        {},
+        {"oncollisionenter", "hit", "touch"}},
+       {"asleep", bounded("a number of seconds of stillness above 0", 0, true), "seconds of stillness", asleep},
+       {"enter", form_of(passage_table<when::Enter>()), "into a sensor", enter},
+       {"leave", form_of(passage_table<when::Leave>()), "out of a sensor", leave},
+       {"saturated", bounded("a number of seconds above 0", 0, true),
+        "seconds for which a drive has been at its greatest force or torque", saturated},
+       {"error", &ValueForms::positive, "m from the path, of a driven body", error},
+       {"speed_peak", only_yes(), "the path of the body is as fast as it gets", peak}});
   return table;
 }
 

@@ -78,7 +78,9 @@ void judge_spins(Building& building) {
 void judge_loop(Building& building, std::size_t clip, double speed) {
   const Play play{.clip = clip, .speed = speed};
   const std::string& name = building.stage.clips[clip].name;
-  const std::string fault = too_many_events(play, building.stage.clips[clip], building.stage.step + 1e-6);
+  const Clip& described = building.stage.clips[clip];
+  const std::string fault =
+      too_many_events(play, described, building.stage.step + 1e-6, most_events_in_step(described));
   if (!fault.empty()) building.problems.add(below(place_of_clip(building, name), {"loop"}), fault);
 }
 

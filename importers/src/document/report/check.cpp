@@ -154,7 +154,7 @@ class Checker {
   void list(const Form& form, const std::string& what, const json::Value& value) {
     if (is_flat(form, value)) {
       fault(value, "expected " + what + ", found a list of " + std::to_string(value.items().size()) +
-                       " numbers; each item is " + form.element->what);
+                       " with numbers among them; each item is " + form.element->what);
       return;
     }
     const bool fits = value.items().size() >= form.fewest && value.items().size() <= form.most;
@@ -163,12 +163,15 @@ class Checker {
     if (!fits) tree_.mark_faulty(value);
   }
 
-  // Whether numbers stand in a row that belong in lists of their own, which is one fault and not one for each of them.
+  // Whether numbers stand in a row, or by turns with other things, that belong in lists of their own: one fault, not
+  // one for each of them.
   static bool is_flat(const Form& form, const json::Value& value) {
-    return value.items().size() > 1 && instead_of(*form.element, value.items().front()).empty() &&
-           std::all_of(value.items().begin(), value.items().end(), [&](const json::Value& item) {
-             return item.is(Kind::number) && !resolved(*form.element, item);
-           });
+    const auto is_stray = [&](const json::Value& item) {
+      return item.is(Kind::number) && !resolved(*form.element, item);
+    };
+    const auto strays = std::count_if(value.items().begin(), value.items().end(), is_stray);
+    return strays > 1 && 2 * static_cast<std::size_t>(strays) >= value.items().size() &&
+           instead_of(*form.element, value.items().front()).empty();
   }
 
   void tuple(const Form& form, const std::string& what, const json::Value& value) {

@@ -85,8 +85,12 @@ constexpr std::pair<std::string_view, std::string_view> words_of_others[] = {
     {"layers", "groups"},
     {"collisiongroup", "groups"},
     {"collisionlayer", "groups"},
+    {"iterationcount", "count"},
+    {"repeatcount", "count"},
     {"iterationcount", "loop"},
     {"repeatcount", "loop"},
+    {"yoyo", "loop"},
+    {"alternate", "loop"},
     {"direction", "loop"},
     {"timingfunction", "ease"},
     {"scene", "nodes"},
@@ -293,6 +297,8 @@ std::string said_of_field_of_body(std::string_view foreign) {
     return "; all that is fast is caught on its way";
   if (word.starts_with("lock") || word.starts_with("freeze") || word == "constraints" || word == "fixedrotation")
     return "; what a body cannot do, \"joints\" in \"world\" say: a \"slider\" holds its angles";
+  if (word.find("kinematic") != std::string::npos || word == "type" || word == "bodytype")
+    return "; a body is moved by its clip, or stands still with \"static\": true, until a \"handoff\" lets it go";
   if (word == "material" || word == "physicsmaterial" || word == "physicmaterial")
     return "; \"friction\" and \"restitution\" are fields of the body itself";
   return {};

@@ -54,8 +54,25 @@ json::Value first_of(const json::Value& object, std::initializer_list<std::strin
 }  // namespace
 
 std::string number_meant(std::string_view text) {
+  // Ours are meters, kilograms, seconds and degrees.
+  constexpr std::pair<std::string_view, double> units[] = {{"cm", 0.01},
+                                                           {"mm", 0.001},
+                                                           {"km", 1000},
+                                                           {"g", 0.001},
+                                                           {"ms", 0.001},
+                                                           {"min", 60},
+                                                           {"khz", 1000},
+                                                           {"turn", 360},
+                                                           {"turns", 360},
+                                                           {"rev", 360},
+                                                           {"rad", 57.29577951308232},
+                                                           {"grad", 0.9}};
   const std::optional<WithUnit> read = with_unit(text);
-  return read ? said(number_text(read->number)) : std::string();
+  if (!read) return {};
+  const std::string unit = small_letters(read->unit);
+  for (const auto& [known, factor] : units)
+    if (unit == known) return said(brief_text(read->number * factor));
+  return said(number_text(read->number));
 }
 
 std::string member_said(std::string_view name, const json::Value& value) {

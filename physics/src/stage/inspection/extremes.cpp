@@ -205,7 +205,10 @@ class Finder {
     World trial = state_.world;
     std::size_t parts = 1 + state_.bodies.size();
     for (const SoftDescription& soft : description_.softs) parts += soft.soft.positions.size();
-    const std::size_t steps = std::clamp(worth / parts, std::size_t{1}, most_steps);
+    // Long steps are solved in pieces, whose number grows with their length.
+    constexpr double longest = 120;  // s
+    const auto affordable = static_cast<std::size_t>(std::clamp(longest / description_.step, 1.0, double{most_steps}));
+    const std::size_t steps = std::clamp(worth / parts, std::size_t{1}, affordable);
     const auto node_of = [&](const BodyId& body) -> const StagedBody& {
       return *state_.body(state_.node_of[body.index]);
     };

@@ -193,10 +193,11 @@ Node checked_node(const NodeDescription& node) {
 
 /// Events are reported step by step, each step's all at once, so their number must be limited.
 void require_countable_events(const StageDescription& description) {
-  for (const Play& play : description.plays)
-    if (const std::string fault = too_many_events(play, description.clips[play.clip], description.step + sliver);
-        !fault.empty())
-      throw std::invalid_argument(fault);
+  for (const Play& play : description.plays) {
+    const Clip& clip = description.clips[play.clip];
+    const std::string fault = too_many_events(play, clip, description.step + sliver, most_events_in_step(clip));
+    if (!fault.empty()) throw std::invalid_argument(fault);
+  }
 }
 
 }  // namespace
