@@ -187,6 +187,22 @@ TEST_CASE("dual quaternions go along the screw between two rigid motions") {
   CHECK(near(lists.positions[0].cwiseAbs(), Vec3(1, 1, 2), 1e-15));
 }
 
+TEST_CASE("a joint that hardly pulls on a vertex does not turn the others against each other") {
+  const auto about_z = [](double angle) {
+    SkinJoint joint;
+    joint.rotation = exp_map({0, 0, angle});
+    joint.moved.linear = joint.rotation.toRotationMatrix();
+    return joint;
+  };
+  const std::vector<SkinJoint> joints = {about_z(std::numbers::pi), about_z(0.1), about_z(-0.1)};
+  Mesh mesh;
+  mesh.positions = {{1, 0, 0}};
+  mesh.influences.add({{0, 1e-6}, {1, 0.5}, {2, 0.5}});
+  std::vector<Vec3> positions(1);
+  deform(mesh, joints, {SkinBlend::dual_quaternion}, {.positions = positions});
+  CHECK((positions[0] - Vec3(1, 0, 0)).norm() < 1e-5);
+}
+
 TEST_CASE("normals stay across a surface that is stretched, sheared or mirrored, and point to the same side of it") {
   Random random(5);
   for (int i = 0; i < 200; ++i) {

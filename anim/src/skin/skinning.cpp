@@ -50,11 +50,20 @@ Quat rate_of(const Quat& q, const Vec3& spin) noexcept {
   return Quat(0.5 * rate.coeffs());
 }
 
+// Whose joint decides the signs of the others' rotations: one that hardly counts must not set the others against each
+// other.
+const Influence* heaviest(std::span<const Influence> influences) noexcept {
+  const Influence* heaviest = nullptr;
+  for (const Influence& each : influences)
+    if (!heaviest || std::abs(each.weight) > std::abs(heaviest->weight)) heaviest = &each;
+  return heaviest;
+}
+
 Affine dual_quaternion_blend(std::span<const Influence> influences, std::span<const SkinJoint> joints) noexcept {
   // Real and dual part, each with its rate.
   Vec4 real(0, 0, 0, 0), real_rate(0, 0, 0, 0), dual(0, 0, 0, 0), dual_rate(0, 0, 0, 0);
   Affine stretch;
-  const SkinJoint* first = nullptr;
+  const Influence* const pivot = heaviest(influences);
   for (const auto& [joint, weight] : influences) {
     if (weight == 0) continue;
     const SkinJoint& each = joints[joint];
@@ -62,8 +71,7 @@ Affine dual_quaternion_blend(std::span<const Influence> influences, std::span<co
     const Quat place(0, each.moved.origin.x(), each.moved.origin.y(), each.moved.origin.z());
     const Quat speed(0, each.moved.velocity.x(), each.moved.velocity.y(), each.moved.velocity.z());
     const Quat moved = place * each.rotation, moving_on = speed * each.rotation, moving = place * rate;
-    if (!first) first = &each;
-    const double share = first->rotation.dot(each.rotation) < 0 ? -weight : weight;
+    const double share = joints[pivot->joint].rotation.dot(each.rotation) < 0 ? -weight : weight;
     real += share * each.rotation.coeffs();
     real_rate += share * rate.coeffs();
     dual += 0.5 * share * moved.coeffs();
