@@ -1,7 +1,10 @@
+#include <tweenfall/curves/elementary.h>
 #include <tweenfall/curves/number_text.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -93,9 +96,78 @@ std::string fault_of_edges(const SurfaceMesh& mesh) {
   return {};
 }
 
+/// Triangles that hang together, and what they enclose.
+struct MeshPart {
+  std::vector<std::size_t> triangles;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  double volume = 0;  ///< m^3
+};
+
+std::vector<MeshPart> mesh_parts(const SurfaceMesh& mesh) {
+  std::vector<std::uint32_t> over = first_at_place(mesh);
+  const auto top = [&over](std::uint32_t vertex) {
+    while (over[vertex] != vertex) vertex = over[vertex] = over[over[vertex]];
+    return vertex;
+  };
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) over[top(mesh.triangles[i])] = top(mesh.triangles[i - i % 3]);
+  std::vector<MeshPart> parts;
+  std::vector<std::size_t> number(mesh.positions.size(), mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    std::size_t& which = number[top(mesh.triangles[i])];
+    if (which == mesh.positions.size()) {
+      which = parts.size();
+      parts.emplace_back();
+    }
+    MeshPart& part = parts[which];
+    part.triangles.push_back(i / 3);
+    for (std::size_t k = i; k < i + 3; ++k) {
+      part.low = part.low.cwiseMin(mesh.positions[mesh.triangles[k]]);
+      part.high = part.high.cwiseMax(mesh.positions[mesh.triangles[k]]);
+    }
+    const Vec3& from = mesh.positions[mesh.triangles[3 * part.triangles.front()]];
+    part.volume += six_volumes(mesh, i / 3, from) / 6;
+  }
+  return parts;
+}
+
+/// How often a part goes around a point: 1 inside of it, -1 if it is inside out, 0 outside.
+/// Source of the solid angles: Van Oosterom, Strackee, The Solid Angle of a Plane Triangle, 1983.
+double turns_around(const SurfaceMesh& mesh, const MeshPart& part, const Vec3& point) {
+  if ((point.array() < part.low.array()).any() || (point.array() > part.high.array()).any()) return 0;
+  double angle = 0;
+  for (const std::size_t triangle : part.triangles) {
+    const auto corner = [&](std::size_t k) { return Vec3(mesh.positions[mesh.triangles[3 * triangle + k]] - point); };
+    const Vec3 a = corner(0), b = corner(1), c = corner(2);
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angle += 2 * elementary::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return angle / (4 * std::numbers::pi);
+}
+
+/// Parts that are inside out are hollows, which lie inside of others.
+std::string fault_of_parts(const SurfaceMesh& mesh) {
+  const std::vector<MeshPart> parts = mesh_parts(mesh);
+  for (const MeshPart& part : parts) {
+    // Sheets with two sides enclose nothing but rounding.
+    const double size = (part.high - part.low).norm();
+    if (!(part.volume < -1e-12 * size * size * size)) continue;
+    const std::size_t triangle = part.triangles.front();
+    Vec3 middle(0, 0, 0);
+    for (std::size_t k = 0; k < 3; ++k) middle += mesh.positions[mesh.triangles[3 * triangle + k]] / 3;
+    double turns = 0;
+    for (const MeshPart& other : parts)
+      if (&other != &part) turns += turns_around(mesh, other, middle);
+    if (turns < 0.5)
+      return "a part of this mesh is inside out, as its triangle " + std::to_string(triangle) + " at " +
+             text_of_vertex(middle) + " shows, and is no hollow inside of another; it encloses " +
+             number_text(part.volume) + " m^3";
+  }
+  return {};
+}
+
 std::string fault_of_volume(const SurfaceMesh& mesh) {
   const MeshMeasures measures = measure(mesh);
-  if (measures.volume > 0) return {};
+  if (measures.volume > 0) return fault_of_parts(mesh);
   const std::string volume = "; it encloses " + number_text(measures.volume) + " m^3";
   const std::string all = "a mesh with mass must enclose a volume, its triangles wound outwards";
   if (!(measures.volume < 0)) return all + volume;

@@ -132,6 +132,22 @@ TEST_CASE("an open mesh, one with a triangle turned round and one inside out are
   CHECK(fault_of_solid(corner()).empty());
 }
 
+TEST_CASE("a part of a mesh that is inside out is refused, unless it is a hollow of another") {
+  const auto with = [](double size, const Vec3& place) {
+    SurfaceMesh both = corner();
+    for (const Vec3& vertex : corner().positions) both.positions.push_back(size * vertex + place);
+    for (std::size_t i = 0; i < 12; i += 3)
+      for (const std::size_t k : {1u, 0u, 2u}) both.triangles.push_back(4 + corner().triangles[i + k]);
+    return both;
+  };
+  const MassProperties hollow = mass_properties(with(0.5, Vec3(0.1, 0.1, 0.1)), 7);
+  CHECK(near(hollow.center, Vec3((8 * Vec3(0.25, 0.25, 0.25) - Vec3(0.225, 0.225, 0.225)) / 7), 1e-14));
+  // One far off, and one within the other's bounds but beside it.
+  for (const Vec3& place : {Vec3(5, 0, 0), Vec3(0.6, 0.6, 0.6)})
+    CHECK_THROWS_WITH((void)mass_properties(with(0.2, place), 1),
+                      doctest::Contains("a part of this mesh is inside out, as its triangle 4 at ("));
+}
+
 TEST_CASE("mass properties that nothing can have are refused") {
   MassProperties some = mass_properties(Shape{Box{{1, 2, 3}}}, 2);
   validate(some);
