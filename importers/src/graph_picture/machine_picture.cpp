@@ -99,6 +99,7 @@ void MachinePicture::draw(SvgWriter& svg, double left, double top) const {
              {first ? "#dafbe1" : "#ffffff", first ? "#1a7f37" : "#57606a", 20, first});
   }
   std::vector<Arrow> arrows;
+  arrows.reserve(ways.size());
   for (const Way& way : ways) arrows.push_back(way.arrow);
   Labels labels(boxes, arrows);
   for (std::size_t i = 0; i < ways.size(); ++i) {

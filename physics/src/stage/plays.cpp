@@ -51,6 +51,7 @@ std::vector<FiredEvent> news_of_graphs(const Animation& before, const Animation&
     return each.name == event.name && each.data == event.data && each.clip == event.clip && each.kind == event.kind;
   });
   std::vector<FiredEvent> news;
+  news.reserve(now.size());
   for (GraphEvent& event : now)
     news.push_back({event.time, std::move(event.name), std::move(event.data), event.clip, event.kind});
   return news;

@@ -12,6 +12,7 @@ namespace tweenfall::document::fields {
 template <class Thing, class Access>
 [[nodiscard]] Row<Thing> filling(std::string name, Access access) {
   std::vector<std::pair<std::string, Fill>> words;
+  words.reserve(std::size(fill_words));
   for (const std::string_view word : fill_words) words.emplace_back(word, static_cast<Fill>(words.size()));
   Row<Thing> row = one_of<Thing, Fill>(std::move(name), "a way to fill", std::move(words),
                                        "what shows of it outside its time: its first frame before, its last after, "
