@@ -117,6 +117,22 @@ TEST_CASE("a body follows the graph keyed, and leaves it at an event with the gr
   CHECK(near(stage.handoffs()[0].after.twist.linear, path.rate(0.8), 1e-9));
 }
 
+TEST_CASE("a fault of one pose does not hide names that nothing has elsewhere") {
+  const std::string faults =
+      graph_faults(R"("a": {"blend": []}, "b": {"feet": {"pelvis": "hip", "ground": "hill", "legs": [
+        {"start": "hip", "middle": "knee", "end": "knee"}]}})",
+                   R"(, "parameters": {"p": "one"}, "output": "nope", "inputs": [[1, "v", 2], [1, "p", 2]])");
+  for (const char* told :
+       {"/graphs/g/poses/a/blend)", "/graphs/g/poses/b/feet/ground)", "there is no pose \"nope\" (at /graphs/g/output)",
+        "there is no parameter \"v\" (at /graphs/g/inputs/0)", "/graphs/g/parameters/p)"}) {
+    CAPTURE(told);
+    CHECK(faults.find(told) != std::string::npos);
+  }
+  // What was left out because it is faulty itself is there.
+  CHECK(faults.find("there is no parameter \"p\"") == std::string::npos);
+  CHECK(graph_faults("\"a\": {\"blend\": []}", ", \"output\": \"a\"").find("there is no pose") == std::string::npos);
+}
+
 TEST_CASE("faults of graphs are told with their places") {
   CHECK(graph_faults("\"a\": {\"clip\": \"wlak\"}") ==
         "g.json:5:15: error: there is no clip \"wlak\"; did you mean \"walk\"? (at /graphs/g/poses/a/clip)\n"

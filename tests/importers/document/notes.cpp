@@ -61,8 +61,8 @@ TEST_CASE("a property that nothing reads is noted with the one of ours that it s
   CHECK(has(noted("rot"), "did you mean \"lamp.rotation\"?"));
   CHECK(has(noted("colour"), "did you mean \"lamp.color\"?"));
   CHECK(has(noted("Scale"), "did you mean \"lamp.scale\"?"));
-  for (const char* word : {"location", "loc", "localPosition", "m_LocalPosition", "delta_location", "Lcl Translation",
-                           "coords", "global_position"})
+  for (const char* word : {"location", "locaton", "tanslation", "loc", "localPosition", "m_LocalPosition",
+                           "delta_location", "Lcl Translation", "coords", "global_position"})
     CHECK_MESSAGE(has(noted(word), "did you mean \"lamp.position\"?"), word);
   for (const char* word : {"euler", "eulerAngles", "localEulerAngles", "quat", "rotation_quaternion",
                            "rotation_axis_angle", "rotation_degrees", "Lcl Rotation", "orientation"})

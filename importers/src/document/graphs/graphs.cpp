@@ -175,16 +175,24 @@ class Told {
   [[nodiscard]] bool is_any() const { return holds_any(graph_); }
 
   // Whether something missing at a place may be a consequence of a reported fault.
-  [[nodiscard]] bool leads_to(const GraphFault& fault) const {
+  [[nodiscard]] bool leads_to(const GraphFault& fault, const json::Value& at) const {
     if (places_.empty()) return false;
     if (is_spoiled("parameters") || is_spoiled("poses")) return true;
     // In a pose, of any fault in that pose; elsewhere, of a fault in any pose, since only poses without faults exist.
     const bool in_pose = fault.place.size() > 1 && fault.place[0] == "poses";
     const json::Value poses = graph_.find("poses");
-    return holds_any(in_pose ? poses.find(fault.place[1]) : poses);
+    if (in_pose) return holds_any(poses.find(fault.place[1]));
+    const bool sets = !fault.place.empty() && fault.place[0] == "inputs" && at.items().size() > 2;
+    return holds_any(poses) && !names_nothing(sets ? at.items()[1] : at);
   }
 
  private:
+  // Whether it is a name that no part of the graph has, left out or not: no fault of a part can be why it is unknown.
+  [[nodiscard]] bool names_nothing(const json::Value& value) const {
+    if (!value.is(Kind::text)) return false;
+    const std::string_view name = value.text();
+    return !graph_.find("parameters").find(name) && !graph_.find("poses").find(name);
+  }
   [[nodiscard]] bool is_spoiled(const char* part) const { return graph_.find(part).is(Kind::faulty); }
   [[nodiscard]] bool holds_any(const json::Value& value) const {
     if (!value) return false;
@@ -223,7 +231,7 @@ void tell_faults(const json::Value& value, const GraphDescription& graph, Buildi
   const bool sound = building.problems.empty();
   const Told told(value, building.problems);
   for (GraphFault& fault : faults)
-    if (const auto [place, whole] = place_in(value, fault.place); (whole || sound) && !told.leads_to(fault))
+    if (const auto [place, whole] = place_in(value, fault.place); (whole || sound) && !told.leads_to(fault, place))
       building.problems.add(place, std::move(fault.message));
 }
 

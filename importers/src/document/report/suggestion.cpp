@@ -33,6 +33,9 @@ std::string property_meant(std::string_view track) {
   if (std::find(ours.begin(), ours.end(), property) != ours.end()) return {};
   std::string meant = property_of_ours(property);
   if (meant.empty() && said_of_property(property, {}).empty()) meant = nearest_name(property, ours);
+  // A misspelled word of others; short ones are too near to anything.
+  static const std::vector<std::string> long_words{"translation", "translate", "location", "orientation", "quaternion"};
+  if (meant.empty() && property.size() > 6) meant = property_of_ours(nearest_name(property, long_words));
   return meant.empty() ? meant : std::string(track.substr(0, dot + 1)) + meant;
 }
 
