@@ -25,23 +25,29 @@ constexpr std::size_t links_worth_a_part = 128;
 /// A blow that displaces a body in a step by less than this part of `near_enough` is none.
 constexpr double hardly_moved = 0.25;
 
+/// Two bodies may approach faster than blows along their normals tell, by this part of what these change: friction and
+/// turning bring it about.
+constexpr double astray = 0.25;
+
 /// Which bodies the blows of a step reach, when, and how hard at most.
 class Blows {
  public:
   Blows(std::vector<Struck>& struck, std::size_t bodies, double dt) : struck_(struck), dt_(dt) {
-    struck_.assign(bodies, {dt, 0, 0});
+    struck_.assign(bodies, {dt});
   }
   /// Whether anything was struck since the last call.
   [[nodiscard]] bool spread() { return std::exchange(spread_, false); }
 
   /// Ignores what is hardly more than was known, so that this soon ends: for each body by itself, since what
   /// happens to others elsewhere must not affect it.
-  void strike(std::uint32_t body, double time, double change) {
+  void strike(std::uint32_t body, double time, const Vec3& change) {
     Struck& struck = struck_[body];
-    if (!(change * (dt_ - time) > hardly_moved * near_enough)) return;
-    if (!(time < struck.time - 0.01 * dt_ || change > 1.05 * struck.most)) return;
+    const double size = change.norm();
+    if (!(size * (dt_ - time) > hardly_moved * near_enough)) return;
+    if (!(time < struck.time - 0.01 * dt_ || size > 0.05 * struck.most)) return;
     struck.time = std::min(struck.time, time);
-    struck.most = std::max(struck.most, change);
+    struck.change += change;
+    struck.most = struck.change.norm();
     struck.when = now_;
     spread_ = true;
   }
@@ -50,19 +56,22 @@ class Blows {
   /// Whether a blow can bring two together that are at least `gap` apart.
   [[nodiscard]] bool may_bring(const Link& link, double closing) const {
     const Struck &a = struck_[link.a], &b = struck_[link.b];
-    return surely * link.gap < (closing + a.most + b.most) * (dt_ - std::min(a.time, b.time));
+    return surely * link.gap < (closing + (1 + astray) * (a.most + b.most)) * (dt_ - std::min(a.time, b.time));
   }
   /// Passes a blow on through a pair. @return how far the two may approach in the rest of the step, m; 0
   /// if they do not meet
   double hand_on(const Link& link) {
     const Struck &a = struck_[link.a], &b = struck_[link.b];
-    const double begin = std::min(a.time, b.time), closing = link.closing + a.most + b.most;
-    if (!(begin < dt_ && link.gap < closing * (dt_ - begin))) return 0;
-    const double met = begin + std::max(0.0, link.gap) / closing;
-    const double change = std::max(0.0, link.closing) + std::max(a.most, b.most);
-    if (link.a_moves) strike(link.a, met, change);
-    if (link.b_moves) strike(link.b, met, change);
-    return closing * (dt_ - begin);
+    const double begin = std::min(a.time, b.time), closing = link.closing + link.normal.dot(a.change - b.change);
+    const double most = closing + astray * (a.most + b.most);
+    if (!(begin < dt_ && link.gap < most * (dt_ - begin))) return 0;
+    if (closing > 0) {
+      const double met = begin + std::max(0.0, link.gap) / std::max(closing, most);
+      const Vec3 exchanged = closing / (link.inverse_mass_a + link.inverse_mass_b) * link.normal;
+      if (link.inverse_mass_a > 0) strike(link.a, met, -link.inverse_mass_a * exchanged);
+      if (link.inverse_mass_b > 0) strike(link.b, met, link.inverse_mass_b * exchanged);
+    }
+    return most * (dt_ - begin);
   }
 
   /// The same for one of many links that are visited in their order, round by round. A link neither of whose ends was
@@ -92,7 +101,8 @@ void note_blow(const ContactConstraint& contact, const collision::Passage& a, co
   const Vec3& normal = contact.manifold.normal;
   const double along_a = normal.dot(a.course.acceleration), along_b = normal.dot(b.course.acceleration);
   const double tremble = 2 * std::max(std::abs(along_a), std::abs(along_b)) * dt;
-  Blow blow{contact.a, contact.b, dt, 0};
+  Blow blow{contact.a, contact.b, dt};
+  double change = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
     const PointConstraint& point = contact.points[i];
     const double closing = normal.dot((a.course.linear + a.course.angular.cross(point.start_arm_a)) -
@@ -100,9 +110,11 @@ void note_blow(const ContactConstraint& contact, const collision::Passage& a, co
     const auto [time, speed] = meeting_of(point.start_gap, closing, along_a - along_b, dt);
     if (!(speed > tremble)) continue;
     blow.time = std::min(blow.time, time);
-    blow.change = std::max(blow.change, (1 + contact.restitution) * speed);
+    change = std::max(change, (1 + contact.restitution) * speed);
   }
-  if (blow.change > 0) blows.push_back(blow);
+  if (!(change > 0)) return;
+  blow.change = change * normal;
+  blows.push_back(blow);
 }
 
 }  // namespace contacts
@@ -113,9 +125,12 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
   if (std::all_of(all.begin(), all.end(), [](const contacts::FoundPart& part) { return part.blows.empty(); })) return;
   contacts::Blows blows(struck_bodies, bodies.size(), dt);
   for (const contacts::FoundPart& part : all)
-    for (const contacts::Blow& blow : part.blows)
-      for (const std::uint32_t end : {blow.a, blow.b})
-        if (!bodies[end].immovable()) blows.strike(end, blow.time, blow.change);
+    for (const contacts::Blow& blow : part.blows) {
+      const double a = bodies[blow.a].immovable() ? 0 : 1 / bodies[blow.a].mass().mass;
+      const double b = bodies[blow.b].immovable() ? 0 : 1 / bodies[blow.b].mass().mass;
+      if (a > 0) blows.strike(blow.a, blow.time, -a / (a + b) * blow.change);
+      if (b > 0) blows.strike(blow.b, blow.time, b / (a + b) * blow.change);
+    }
   const auto has_corners = [this](const contacts::ContactConstraint& contact) {
     const auto polyhedron = [this](std::uint32_t body) {
       return collision::is_polyhedron(passages[body].body->shape().solid);

@@ -52,12 +52,16 @@ constexpr double surely = 0.999;
 
 [[nodiscard]] inline Link link_of(std::uint32_t a, const collision::Passage& way_a, std::uint32_t b,
                                   const collision::Passage& way_b, const Vec3& normal, double gap) {
+  const auto inverse_mass = [](const collision::Passage& way) {
+    return way.body->immovable() ? 0 : 1 / way.body->mass().mass;
+  };
   return {a,
           b,
-          !way_a.body->immovable(),
-          !way_b.body->immovable(),
+          normal,
           gap,
-          normal.dot(way_a.course.linear - way_b.course.linear)};
+          normal.dot(way_a.course.linear - way_b.course.linear),
+          inverse_mass(way_a),
+          inverse_mass(way_b)};
 }
 
 /// Adds the blow with which two bodies meet at this contact within the step, if any.

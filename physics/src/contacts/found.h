@@ -18,8 +18,9 @@ struct KnownApart {
 /// A pair through which a blow may be passed on.
 struct Link {
   std::uint32_t a = 0, b = 0;
-  bool a_moves = false, b_moves = false;  ///< an end that does not move stands like a wall
-  double gap = 0, closing = 0;            ///< m, m/s
+  Vec3 normal{0, 0, 0};                           ///< from a toward b
+  double gap = 0, closing = 0;                    ///< along the normal, m, m/s
+  double inverse_mass_a = 0, inverse_mass_b = 0;  ///< 0 for an end that does not move: it stands like a wall
 };
 
 /// A pair that stays apart on the present paths, but might not if one of its bodies were stopped.
@@ -32,13 +33,15 @@ struct Followers {
 /// Two bodies that meet within this step.
 struct Blow {
   std::uint32_t a = 0, b = 0;
-  double time = 0, change = 0;  ///< s after the start of the step; upper bound for their velocities, m/s
+  double time = 0;       ///< s after the start of the step
+  Vec3 change{0, 0, 0};  ///< at most of b's velocity relative to a's, m/s
 };
 
 /// The possible effect of this step's blows on a body.
 struct Struck {
   double time = 0;         ///< of the first blow, s
-  double most = 0;         ///< greatest change of its velocity, m/s
+  Vec3 change{0, 0, 0};    ///< about how its velocity changes, m/s
+  double most = 0;         ///< size of that change, m/s
   std::uint64_t when = 0;  ///< rising number of the last time it got a harder or an earlier blow
 };
 

@@ -218,11 +218,13 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     const contacts::Closing closing =
         contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt * parts_);
     contacts::foresee(*contact, a.twist, b.twist, closing, dt);
-    // Deeper than what falls for a step or two, whatever its direction: no rest is like that.
+    // Deeper than what falls for a step or two, whatever its direction: no rest is like that. What moves anyway need
+    // not go straight.
     const double whole = dt * parts_;
     const double pull = std::max(loads[contact->a].acceleration.norm(), loads[contact->b].acceleration.norm());
-    const double fallen = 2 * pull * whole * whole;
-    for (int i = 0; i < contact->count; ++i)
+    const double fallen = 2 * pull * whole * whole, moving = 4 * pull * whole;
+    const bool moves = std::max(a.twist.linear.norm(), b.twist.linear.norm()) > moving;
+    for (int i = 0; i < contact->count && !moves; ++i)
       is_pushed_out = is_pushed_out || contact->points[static_cast<std::size_t>(i)].start_gap < -fallen;
     if (!contact->impact) continue;
     // The blow of two bodies, and their rebound, is solved to the end.

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "collision/surfaces/surface.h"
@@ -22,16 +21,15 @@ namespace {
 using contacts::ContactConstraint;
 using state::Body;
 
-/// Below this restitution, blows that are passed on hardly matter, except in islands with so many contacts.
+/// Below this restitution, blows that are passed on hardly matter.
 constexpr double dull = 0.25;
-constexpr std::size_t many = 5;
 constexpr std::size_t most_contacts_of_blows = 24;
 /// What meets within this part of a step meets now.
 constexpr double soon = 1e-6;
 /// In shorter steps than this, jitter is no faster than in a step of this length, s.
 constexpr double unhurried = 1e-3;
-/// Cuts of a step; what still meets after them is solved with the rest. Dull blows die away sooner.
-constexpr int most_cuts = 64, most_cuts_of_dull = 6;
+/// Cuts of a step; what still meets after them is solved with the rest.
+constexpr int most_cuts = 64;
 /// Strikes without progress: a wedged body would bounce back and forth forever.
 constexpr int most_strikes = 4;
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -62,13 +60,8 @@ bool World::Implementation::hands_on_blows(const islands::IslandContents& island
   if (island.contacts.size() < 2 || island.contacts.size() > small::most_contacts_of_blows || !island.springs.empty() ||
       !island.joints.empty())
     return false;
-  // With little restitution, a blow that is passed on matters only if it goes far: in a pile that stands on one foot.
-  const auto feet = std::count_if(island.contacts.begin(), island.contacts.end(), [&](const auto* contact) {
-    return bodies[contact->a].immovable() || bodies[contact->b].immovable();
-  });
-  const double least = island.contacts.size() >= small::many && feet == 1 ? 0 : small::dull;
   const bool bounces = std::any_of(island.contacts.begin(), island.contacts.end(), [&](const auto* contact) {
-    return contact->restitution > least &&
+    return contact->restitution > small::dull &&
            small::time_of_blow(*contact, bodies, loads, (1 + small::soon) * dt, dt * part_count) < small::never;
   });
   if (!bounces) return false;
@@ -86,33 +79,21 @@ void World::Implementation::solve_by_blows(const islands::IslandContents& island
   using contacts::ContactConstraint;
   small::PartsOfStep parts(island, bodies);
   const double soon = small::soon * dt;
-  const bool springs_back = std::any_of(island.contacts.begin(), island.contacts.end(),
-                                        [](const auto* contact) { return contact->restitution > small::dull; });
-  // Between blows nothing bounces: speeds below a blow would only jitter. If blows are dull, it is solved no
-  // further than without blows.
+  // Between blows nothing bounces: speeds below a blow would only jitter.
   const auto calmly = [&](std::span<ContactConstraint* const> blown, double h) {
     std::vector<double> restitutions;
     restitutions.reserve(blown.size());
     for (ContactConstraint* contact : blown) restitutions.push_back(std::exchange(contact->restitution, 0));
-    const auto in_part = [&](int sub_steps) { return std::max(1, static_cast<int>(std::ceil(sub_steps * h / dt))); };
-    const islands::IslandContents contents{blown, {}, {}};
-    std::optional<blocks::BlockSolver::Effort> effort;
-    if (!springs_back && !blown.empty()) effort = by.many.effort_for(contents, bodies, loads, settings, h);
     begin_part(parts);
-    if (effort) {
-      effort->sub_steps = in_part(effort->sub_steps);
-      by.many.solve(bodies, loads, std::span(&contents, 1), *effort, settings, h, moved);
-    } else if (!blown.empty()) {
-      by.few.solve(bodies, loads, blown, {}, settings, h, moved, in_part(small::usual_sub_steps));
-    }
+    const int sub_steps = std::max(1, static_cast<int>(std::ceil(small::usual_sub_steps * h / dt)));
+    if (!blown.empty()) by.few.solve(bodies, loads, blown, {}, settings, h, moved, sub_steps);
     end_part(parts, blown, h);
     for (std::size_t i = 0; i < blown.size(); ++i) blown[i]->restitution = restitutions[i];
   };
   std::vector<ContactConstraint*> slow;
-  const int most_cuts = springs_back ? small::most_cuts : small::most_cuts_of_dull;
   double left = dt;
   int strikes = 0;  // since the last cut
-  for (int cut = 0; cut < most_cuts && strikes < small::most_strikes; ++cut) {
+  for (int cut = 0; cut < small::most_cuts && strikes < small::most_strikes; ++cut) {
     // What meets exactly at the end of the step still belongs to it.
     const double span = left + soon;
     double first = small::never;
