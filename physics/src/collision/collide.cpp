@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "collision/collide_pairs.h"
+#include "collision/convex/capsule_on_box.h"
 #include "collision/convex/collide_convex.h"
 #include "collision/convex/distance.h"
 #include "collision/surfaces/touch.h"
@@ -60,6 +61,13 @@ Manifold collide_solids(const A& a, const Placed& at_a, const B& b, const Placed
     const Manifold manifold = collide(a, at_a, b, at_b, margin);
     return manifold.count > 0 && reach > margin ? collide(a, at_a, b, at_b, reach) : manifold;
   } else if constexpr (HasCore<A> && HasCore<B>) {
+    if constexpr (std::is_same_v<A, Box> && std::is_same_v<B, Capsule>)
+      if (const std::optional<Manifold> lying = convex::capsule_on_box(b, at_b, a, at_a, margin, reach)) return *lying;
+    if constexpr (std::is_same_v<A, Capsule> && std::is_same_v<B, Box>)
+      if (std::optional<Manifold> lying = convex::capsule_on_box(a, at_a, b, at_b, margin, reach)) {
+        lying->normal = -lying->normal;
+        return *lying;
+      }
     return collide_cores(a, at_a, b, at_b, margin, reach);
   } else if constexpr (HasCore<A> && std::is_same_v<B, Plane>) {
     return collide_core_with_plane(a, at_a, b, at_b, margin, reach);

@@ -114,6 +114,12 @@ PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, doub
   const double size = std::min(a.size, b.size);
   const double preference = kind_preference * size;
   constexpr double any_gap = -1e300;
+  // Of a floor, and of any box below a hull, few faces tell all.
+  if (b.faces.size() < a.faces.size()) {
+    const FaceGap told = widest_face(b, a, 0.1 * preference, any_gap, margin);
+    if (is_all(b, a, told))
+      return {PolyhedraSeparation::Kind::face_b, told.gap, -b.faces[told.face].normal, told.face, told.vertex};
+  }
   const FaceGap face_a = widest_face(a, b, 0.1 * preference, any_gap, margin);
   PolyhedraSeparation best{PolyhedraSeparation::Kind::face_a, face_a.gap, a.faces[face_a.face].normal, face_a.face,
                            face_a.vertex};

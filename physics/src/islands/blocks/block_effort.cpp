@@ -22,13 +22,16 @@ namespace {
 /// weight passes through fewer contacts needs fewer.
 constexpr std::size_t few = 128;
 constexpr std::uint32_t deep_of_few = 20, deep_of_many = 50;
-constexpr int sub_steps_of_few = 24, fewest_of_few = 14, fewest_of_turning = 6;
-constexpr int sub_steps_of_many = 10, fewest_of_many = 5;
+constexpr int sub_steps_of_few = 24, fewest_of_few = 14, fewest_of_turning = 4;
+constexpr int sub_steps_of_many = 10, fewest_of_many = 4;
 /// With so few contacts, sub-steps are those of `Solver`, with several passes in each. With half as many, a box in a
-/// press is shot away, and a stack of two sinks a tenth of a millimeter. On a body with a single contact nothing else
-/// rests: if it turns, half as many are enough, with as many passes as it takes.
+/// press is shot away, and a stack of two sinks a tenth of a millimeter. Where something turns nothing rests: half as
+/// many are enough, if nothing springs back from it, or if there is but one contact, with as many passes as it takes.
 constexpr std::size_t small = 8;
 constexpr int sub_steps_of_small = 8, sub_steps_of_turning = 4;
+/// A change below this part of the speed that a contact's impulses give in a sub-step no longer matters: for a body
+/// that lies or rolls, a few hundredths of a micrometer per second; for one that turns, a few micrometers.
+constexpr double settled_of_resting = 1e-6, settled_of_turning = 1e-4;
 /// With joints, an island solved all at once needs few sub-steps, but blows that it passes on need short ones, s. A
 /// caller who takes short steps wants more accuracy.
 constexpr double longest_of_jointed = 1.0 / 180, long_step = 1.0 / 100;
@@ -202,7 +205,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
   effort.rebound_passes = settings.iterations;
   effort.turned_enough = turned_enough_of_small;
   const double h = dt / effort.sub_steps;
-  bool meets = false, is_pushed_out = false;
+  bool meets = false, is_pushed_out = false, is_dull = true;
   double fastest = 0;
   for (ContactConstraint* contact : island.contacts) {
     if (contact->rolling_friction > 0) return std::nullopt;
@@ -226,6 +229,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     const bool moves = std::max(a.twist.linear.norm(), b.twist.linear.norm()) > moving;
     for (int i = 0; i < contact->count && !moves; ++i)
       is_pushed_out = is_pushed_out || contact->points[static_cast<std::size_t>(i)].start_gap < -fallen;
+    is_dull = is_dull && !(contact->restitution > dull);
     if (!contact->impact) continue;
     // The blow of two bodies, and their rebound, is solved to the end.
     if (island.contacts.size() == 1 || contact->restitution > dull) return std::nullopt;
@@ -236,10 +240,14 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     return std::nullopt;
   // A turning body keeps the rest of an uneven push, since it lets go of what it touches; the same rest would move
   // sideways what is being pushed out.
-  const bool is_turning = effort.single && fastest * dt > turns;
-  if (is_turning || is_pushed_out) effort.softening = effort.relaxing = 3 * settings.iterations;
-  if (is_turning && !is_pushed_out && fastest * dt <= followable_of_small * sub_steps_of_turning)
-    effort.sub_steps = sub_steps_of_turning;
+  const bool is_turning = fastest * dt > turns;
+  effort.settled = is_turning ? settled_of_turning : settled_of_resting;
+  if ((is_turning && effort.single) || is_pushed_out) effort.softening = effort.relaxing = 3 * settings.iterations;
+  if (is_turning && !is_pushed_out) {
+    if ((effort.single || is_dull) && fastest * dt <= followable_of_small * sub_steps_of_turning)
+      effort.sub_steps = sub_steps_of_turning;
+    if (!effort.single) effort.relaxing = effort.softening;
+  }
   // Bodies that just meet have no rest yet that many passes would find.
   if (meets) effort.softening = effort.relaxing = passes_of_meeting;
   return effort;

@@ -15,10 +15,6 @@ using state::Body;
 
 namespace {
 
-/// A change below this part of the speed that a contact's impulses give in a sub-step no longer matters: for a body
-/// that lies or rolls, a few hundredths of a micrometer per second.
-constexpr double settled = 1e-6;
-
 constexpr BodyLag pressed_still = {{0, 0, 0, 1}};
 
 }  // namespace
@@ -177,8 +173,9 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   spins_.begin(joints_.empty() ? 0 : bodies_.size());
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps, parts_);
   const double giving = effort.giving * softness.giving;
-  PassRule soft{all(softness.rate), all(softness.speed), all(1 - giving), all(1 - giving), all(1 / h), all(settled)};
-  PassRule hard{.inverse_h = all(1 / h), .enough = all(settled)};
+  PassRule soft{all(softness.rate), all(softness.speed), all(1 - giving),
+                all(1 - giving),    all(1 / h),          all(effort.settled)};
+  PassRule hard{.inverse_h = all(1 / h), .enough = all(effort.settled)};
   int softening = effort.softening, relaxing = effort.relaxing;
   if (effort.single) {
     soft.passes = std::exchange(softening, 1);

@@ -30,6 +30,7 @@ class BlockSolver {
     int rebound_passes = 1;
     double giving = 1;         ///< share of their softness that contacts get
     double turned_enough = 0;  ///< rows are prepared again when a body has turned by this, rad
+    double settled = 1e-6;     ///< with many passes: a smaller change, of the speed that impulses give, ends them
     bool heap = false;         ///< many bodies press on each other
     bool alone = false;        ///< not together with other islands
     bool single = false;       ///< one contact: all passes over it are made at once, until one changes nothing

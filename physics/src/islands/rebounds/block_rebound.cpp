@@ -15,6 +15,8 @@ namespace {
 
 /// A change of velocity below this part of the jitter is left to the next sub-step.
 constexpr double quiet = 0.1;
+/// What comes back more slowly than this part of the jitter cannot be told from it.
+constexpr double hardly_back = 0.25;
 
 double dot(const double (&a)[4], const double (&b)[4]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -69,7 +71,7 @@ void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, s
       const double left = h - time;
       const double back = contact.restitution * speed;
       const double speed_at_end = back - meeting.pull[lane] * left;
-      if (back <= 0 || speed_at_end <= 0) return;
+      if (back <= hardly_back * meeting.tremble[lane] || speed_at_end <= 0) return;
       found.push_back({at, k, speed_at_end, left * (back - 0.5 * meeting.pull[lane] * left) / speed_at_end});
     };
     if (ball) {
