@@ -111,7 +111,7 @@ bool stay_apart(const Course& a, const Course& b, const Vec3& direction, double 
   return gap > least && along.at(dt) > least;
 }
 
-std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
+std::optional<double> impact_time(const Course& a, const Course& b, double dt, double near, const Vec3& apart) {
   const double swing = a.swing + b.swing;
   double time = 0;
   // How far to look ahead: first to the end, then to where the gap should have closed.
@@ -120,20 +120,26 @@ std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
   for (int i = 0; i < most_advances; ++i) {
     const Vec3 now = a.linear - b.linear + (a.acceleration - b.acceleration) * time;
     // Shapes farther apart than this along any direction do not meet in the time that is left.
-    const double reachable = (std::max(now.norm(), last.norm()) + swing) * (dt - time) + hair;
-    const auto [gap, normal] = gap_between(*a.shape, shapes::place(*a.shape, a.at(time).node(*a.body)), *b.shape,
-                                           shapes::place(*b.shape, b.at(time).node(*b.body)), reachable);
-    if (gap <= hair) return time;
+    const double reachable = (std::max(now.norm(), last.norm()) + swing) * (dt - time) + near;
+    const auto known = [&]() -> Gap { return {GapAlong(a, b, apart).at(0), apart}; };
+    const auto found = [&]() -> Gap {
+      return gap_between(*a.shape, shapes::place(*a.shape, a.at(time).node(*a.body)), *b.shape,
+                         shapes::place(*b.shape, b.at(time).node(*b.body)), reachable);
+    };
+    Gap its = i == 0 && apart != Vec3::Zero() ? known() : Gap{};
+    if (!(its.width > near)) its = found();
+    const auto& [gap, normal] = its;
+    if (gap <= near) return time;
     const double closing = std::max(normal.dot(now), normal.dot(last)) + swing;
-    // Half a hair past the gap, so that it ends after finitely many advances.
-    const double open = gap - 0.5 * hair, left = dt - time;
+    // Half past what counts as near, so that it ends after finitely many advances.
+    const double open = gap - 0.5 * near, left = dt - time;
     if (!(closing > 0) || open > closing * left) return std::nullopt;
     double advance = open / closing;
     stretch = std::min(stretch, left);
     const GapAlong along(a, b, normal);
     const double end = along.at(time + stretch);
     if (std::isfinite(end) && stretch > advance) {
-      const double share = open_for(open, end - 0.5 * hair, along.bent, stretch);
+      const double share = open_for(open, end - 0.5 * near, along.bent, stretch);
       if (share == 1 && stretch == left) return std::nullopt;
       advance = std::max(advance, share * stretch);
       const double closed = 2 * gap * stretch / (gap - end);

@@ -34,10 +34,12 @@ constexpr double hair = 1e-7;
 [[nodiscard]] bool stay_apart(const Course& a, const Course& b, const Vec3& direction, double gap, double from,
                               double dt);
 
-/// The time in (0, dt] at which two separated shapes first get nearer than a hair, by conservative advancement: no
+/// The time in (0, dt] at which two separated shapes first get nearer than `near`, by conservative advancement: no
 /// step is longer than the gap divided by the greatest speed at which it can close.
+/// @param apart  a direction along which they are apart at the start, if one is known
 /// Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, chapter 2.
 /// @return nothing when they do not meet
-[[nodiscard]] std::optional<double> impact_time(const Course& a, const Course& b, double dt);
+[[nodiscard]] std::optional<double> impact_time(const Course& a, const Course& b, double dt, double near = hair,
+                                                const Vec3& apart = Vec3(0, 0, 0));
 
 }  // namespace tweenfall::collision

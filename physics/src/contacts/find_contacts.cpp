@@ -25,6 +25,16 @@ constexpr std::uint32_t crowding = 64, most_contacts = 16;
 /// Number of pairs, or bodies, that are worth a task of their own.
 constexpr std::size_t worth_a_part = 64;
 
+/// How near two bodies are that have met, m: a blow that springs back must be found exactly, and of balls all are,
+/// cheaply.
+double nearness_of_impact(const state::Body& a, const state::Body& b) {
+  constexpr double of_near_enough = 0.05, of_size = 1e-3;
+  const double restitution = combined_restitution(a.makeup->restitution, a.makeup->restitution_combine,
+                                                  b.makeup->restitution, b.makeup->restitution_combine);
+  if (restitution > dull || a.round() || b.round()) return collision::hair;
+  return std::max(collision::hair, std::min(of_near_enough * near_enough, of_size * std::min(a.radius(), b.radius())));
+}
+
 /// The parts of a compound; empty for any other body, which is a single part.
 std::span<const Shape> parts_of(const state::Body& body) {
   const auto* compound = std::get_if<Compound>(&body.shape().solid);
@@ -85,7 +95,9 @@ bool World::Implementation::find_manifold(contacts::ContactConstraint& constrain
     const double gap = collision::gap_along(way_a, way_b, manifold.normal);
     const bool apart_now = collision::stay_apart(way_a, way_b, manifold.normal, gap, contacts::near_enough, dt);
     const std::optional<double> meeting =
-        apart_now ? std::nullopt : collision::impact_time(way_a.course, way_b.course, dt);
+        apart_now ? std::nullopt
+                  : collision::impact_time(way_a.course, way_b.course, dt, contacts::nearness_of_impact(a, b),
+                                           gap > collision::hair ? manifold.normal : Vec3(0, 0, 0));
     if (!meeting) {
       if (told_apart && contacts::may_follow(way_a, way_b, dt) && contacts::follow(way_a, way_b, gap, dt))
         told_apart->followers.push_back(

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contacts/combine.h"
 #include "islands/blocks/block_solver.h"
 #include "islands/pinched.h"
 #include "step/softness.h"
@@ -45,8 +46,6 @@ constexpr double followable = 0.5, followable_of_small = 0.05, followable_of_joi
 
 /// A body that turns by more than this in a step is not at rest, rad: there is no rest that needs micrometers.
 constexpr double turns = 1e-3;
-/// With so little restitution, blows that are passed on do not matter.
-constexpr double dull = 0.25;
 constexpr int passes_of_meeting = 2;
 
 /// Only even numbers: islands with the same number are solved together.
@@ -229,10 +228,10 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     const bool moves = std::max(a.twist.linear.norm(), b.twist.linear.norm()) > moving;
     for (int i = 0; i < contact->count && !moves; ++i)
       is_pushed_out = is_pushed_out || contact->points[static_cast<std::size_t>(i)].start_gap < -fallen;
-    is_dull = is_dull && !(contact->restitution > dull);
+    is_dull = is_dull && !(contact->restitution > contacts::dull);
     if (!contact->impact) continue;
     // The blow of two bodies, and their rebound, is solved to the end.
-    if (island.contacts.size() == 1 || contact->restitution > dull) return std::nullopt;
+    if (island.contacts.size() == 1 || contact->restitution > contacts::dull) return std::nullopt;
     meets = true;
   }
   if (islands::is_wedged(island.contacts, bodies,

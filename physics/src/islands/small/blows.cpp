@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "collision/surfaces/surface.h"
+#include "contacts/combine.h"
 #include "contacts/meeting.h"
 #include "islands/small/part_of_step.h"
 #include "state/world_data.h"
@@ -21,8 +22,6 @@ namespace {
 using contacts::ContactConstraint;
 using state::Body;
 
-/// Below this restitution, blows that are passed on hardly matter.
-constexpr double dull = 0.25;
 constexpr std::size_t most_contacts_of_blows = 24;
 /// What meets within this part of a step meets now.
 constexpr double soon = 1e-6;
@@ -61,7 +60,7 @@ bool World::Implementation::hands_on_blows(const islands::IslandContents& island
       !island.joints.empty())
     return false;
   const bool bounces = std::any_of(island.contacts.begin(), island.contacts.end(), [&](const auto* contact) {
-    return contact->restitution > small::dull &&
+    return contact->restitution > contacts::dull &&
            small::time_of_blow(*contact, bodies, loads, (1 + small::soon) * dt, dt * part_count) < small::never;
   });
   if (!bounces) return false;
