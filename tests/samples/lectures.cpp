@@ -50,6 +50,16 @@ TEST_CASE("every word of a world's strategies has a document") {
         std::set<std::string>{"car", "compound", "gears", "machine", "rolling", "rope", "space", "springs", "xy"});
 }
 
+TEST_CASE("the lecture's projectile flies as its table says, and by explicit Euler as its numerical one goes on") {
+  Stage thrown = lecture("analytical/projectile");
+  const double analytical[] = {3.5, 6, 7.5, 8, 7.5, 6, 3.5, 0}, numerical[] = {4, 7, 9, 10, 10, 9, 7, 4};
+  for (int t = 1; t <= 8; ++t) {
+    thrown.advance_to(t);
+    CHECK(near(place_of(thrown, "analytical"), Vec3(3.0 * t, analytical[t - 1], 0), 1e-13));
+    CHECK(near(place_of(thrown, "numerical"), Vec3(3.0 * t, numerical[t - 1], 0), 1e-13));
+  }
+}
+
 TEST_CASE("each force of a document does what its closed form says") {
   Stage drag = lecture("forces/drag");
   drag.advance_to(1.5);

@@ -315,7 +315,7 @@ void World::Implementation::step_in_plane(double dt) {
     body.has_target = false;
   }
   plane.settle(*this);
-  advance_softs(dt);
+  advance_softs(dt, dt * part_count);
   failed = false;
 }
 

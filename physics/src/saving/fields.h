@@ -367,10 +367,10 @@ void each_field(T& state, const Visit& visit) {
 
 template <Is<soft::SoftBody> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [alive, generation, made, positions, velocities, torn, pins, gone, tears] = body;
+  auto& [alive, generation, made, positions, velocities, torn, pins, pace, gone, tears] = body;
   visit(alive, generation);
   if (!alive) return;
-  visit(made, positions, velocities, torn, pins);
+  visit(made, positions, velocities, torn, pins, pace);
   follows_from_others(gone);
   leads_to_nothing(tears);
 }

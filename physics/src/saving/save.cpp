@@ -230,8 +230,10 @@ void check(soft::SoftBody& body, const WorldState& world) {
   static_cast<void>(soft::checked(*body.made));
   const std::size_t nodes = body.made->positions.size();
   state::require(body.positions.size() == nodes && body.velocities.size() == nodes &&
-                     body.torn.size() == body.made->edges.size() && body.made->pins.empty() && body.made->sub_step,
+                     body.torn.size() == body.made->edges.size() && body.made->pins.empty() && body.made->sub_step &&
+                     body.made->iterations,
                  "the numbers of its nodes and edges have changed");
+  state::require(body.pace > 0 && state::countable(body.pace), "its sub-steps are no time");
   for (std::size_t i = 0; i < nodes; ++i) {
     state::require_finite(body.positions[i], "place of a node");
     state::require_finite(body.velocities[i], "velocity of a node");

@@ -117,9 +117,11 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void tell_ended();
   void tell_contacts(std::vector<Contact>& all) const;
   void sense();
-  void note_soft_starts();        ///< where bodies are before a step, for soft bodies
-  void advance_softs(double dt);  ///< steps soft bodies, and their effect on bodies that have been moved already
-  void check_softs() const;       ///< @throws SoftNotFinite
+  void note_soft_starts();  ///< where bodies are before a step, for soft bodies
+  /// Steps soft bodies, and their effect on bodies that have been moved already. @param whole  the step of which this
+  /// is a part, s
+  void advance_softs(double dt, double whole);
+  void check_softs() const;  ///< @throws SoftNotFinite
 };
 
 }  // namespace tweenfall

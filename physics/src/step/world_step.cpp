@@ -439,7 +439,7 @@ void World::Implementation::step(double dt, double of_parts) {
     hold_before_surfaces();
     hold_before_walls(dt);
   }
-  advance_softs(dt);
+  advance_softs(dt, dt * part_count);
   let_sleep(dt);
   report();
   sense();

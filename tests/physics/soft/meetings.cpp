@@ -144,6 +144,38 @@ TEST_CASE("what hangs at rest weighs on its rope as much as it weighs, whatever 
   }
 }
 
+// An Euler integrator displaces what falls by none or all of what it gains in a step, and not by half of it.
+TEST_CASE("by the Euler integrators what has drag weighs on its rope with an error of first order") {
+  struct Way {
+    Integrator integrator;
+    double sign;
+  };
+  for (const auto& [integrator, sign] : {Way{Integrator::explicit_euler, -1}, Way{Integrator::semi_implicit_euler, 1},
+                                         Way{Integrator::backward_euler, 1}}) {
+    CAPTURE(static_cast<int>(integrator));
+    std::vector<double> off;
+    for (const double rate : {240.0, 480.0, 960.0}) {
+      CAPTURE(rate);
+      World world({.integrator = integrator});
+      BodySettings settings{.shape = {Box{Vec3(0.1, 0.1, 0.1)}}, .mass = 2, .linear_damping = 20};
+      settings.motion.pose.position = Vec3(0, -1.1, 0);
+      const BodyId box = world.add(settings);
+      world.add_force(Drag{.linear = 30});
+      SoftSettings line = rope({.to = {0, -1, 0}, .links = 12, .mass = 0.012, .stiffness = 1e6});
+      line.pins = {{.node = 0, .in_place = true}, {.node = 12, .body = box, .point = {0, 0.1, 0}}};
+      line.solver = SoftSolver::springs;
+      line.collide = false;
+      const SoftId id = add_soft(world, line);
+      step(world, 2, 1 / rate);
+      const double slowed = (20 + 30.0 / 2) / rate;
+      off.push_back(soft_pins(world, id)[1].force.y() - 2 * 9.81);
+      CHECK(off.back() == doctest::Approx(sign * 2 * 9.81 * slowed / (2 + slowed)).epsilon(1e-3));
+    }
+    CHECK(off[0] / off[1] == doctest::Approx(2).epsilon(0.05));
+    CHECK(off[1] / off[2] == doctest::Approx(2).epsilon(0.05));
+  }
+}
+
 // A bar on two ropes loads each with half; it hangs lower by its weight divided by the sum of their stiffnesses, and
 // not by how far it would fall in a sub-step.
 TEST_CASE("soft bodies that hold one body bear it together") {
@@ -231,6 +263,63 @@ TEST_CASE("a cloth lies on a slope that is less steep than its friction, and sli
       else
         CHECK(slid == doctest::Approx(0.5 * 9.81 * cosine * (slope - 0.5)).epsilon(0.02));
     }
+}
+
+TEST_CASE("two bodies that land on a rope of springs and rub it give it no energy, whatever the step") {
+  for (const double stiffness : {1e3, 1e5})
+    for (const double speed : {0.0, 1.0})
+      for (const double dt : {1.0 / 240, 1.0 / 960}) {
+        CAPTURE(stiffness);
+        CAPTURE(speed);
+        CAPTURE(dt);
+        World world;
+        std::vector<BodyId> boxes;
+        for (const double side : {-1, 1}) {
+          BodySettings box{.shape = {Box{Vec3(0.1, 0.05, 0.1)}}, .mass = 1, .friction = 0.5};
+          box.motion.pose.position = Vec3(side * 0.5, 0.061, 0);
+          box.motion.twist.linear = speed * Vec3(side, -1, 0);
+          boxes.push_back(world.add(box));
+        }
+        SoftSettings line =
+            rope({.from = {-1, 0, 0}, .to = {1, 0, 0}, .links = 40, .mass = 0.4, .stiffness = stiffness});
+        line.solver = SoftSolver::springs;
+        line.pins = {{.node = 0, .in_place = true}, {.node = 40, .in_place = true}};
+        const SoftId id = add_soft(world, line);
+        const auto total = [&] {
+          double sum = world.kinetic_energy() + energy_of(world, id);
+          for (const BodyId box : boxes) sum += 9.81 * world.motion(box).pose.position.y();
+          return sum;
+        };
+        double before = total();
+        for (int n = 0; n < 60; ++n) {
+          world.step(dt);
+          const double now = total();
+          REQUIRE(now <= before + 1e-9);
+          before = now;
+        }
+      }
+}
+
+TEST_CASE("a rope that two jaws grip hangs from them by friction alone") {
+  for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs}) {
+    CAPTURE(static_cast<int>(solver));
+    World world;
+    std::vector<BodyId> jaws;
+    for (const double side : {-1, 1})
+      jaws.push_back(world.add({.shape = {Box{Vec3(0.05, 0.1, 0.1)}},
+                                .friction = 0.5,
+                                .drive = Drive::keyed(),
+                                .motion = {.pose = {.position = Vec3(side * 0.0599, 1, 0)}}}));
+    SoftSettings line = rope({.from = {0, 1, 0}, .to = {0, 0, 0}, .links = 20, .mass = 0.2, .stiffness = 1e5});
+    line.solver = solver;
+    const SoftId id = add_soft(world, line);
+    step(world, 1);
+    const auto borne = [&] { return Vec3(world.reaction(jaws[0]) + world.reaction(jaws[1])); };
+    const Vec3 start = soft_positions(world, id)[0], before = borne();
+    step(world, 1);
+    CHECK(near(soft_positions(world, id)[0], start, 1e-5));
+    CHECK(near(borne() - before, Vec3(0, -0.2 * 9.81, 0), 1e-2));
+  }
 }
 
 TEST_CASE("a soft body meets those whom its groups let it meet") {

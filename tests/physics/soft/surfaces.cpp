@@ -26,6 +26,74 @@ TEST_CASE("the energy of a cantilevered cloth never grows") {
   }
 }
 
+TEST_CASE(
+    "the energy of a cantilevered cloth of constraints never grows, however stiff or damped it is or finely woven") {
+  struct Weave {
+    int cells;
+    ClothMaterial material;
+  };
+  const Weave weaves[] = {{20, {}},
+                          {10, {.stretching = 1e5, .bending = 1e-3}},
+                          {10, {.stretching = 1e8, .bending = 1e-3}},
+                          {20, {.stretching = 1e12}},
+                          {10, {.damping = 50, .bending = 1e-3}},
+                          {10, {.damping = 5000}},
+                          {10, {.bending = 100}}};
+  for (const auto& [cells, material] : weaves) {
+    CAPTURE(cells);
+    CAPTURE(material.stretching);
+    CAPTURE(material.damping);
+    CAPTURE(material.bending);
+    SoftSettings sheet = cloth({.columns = cells, .rows = cells, .material = material});
+    for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(cells); ++i)
+      sheet.pins.push_back({.node = i, .in_place = true});
+    World world;
+    const SoftId id = add_soft(world, sheet);
+    double before = energy_of(world, id), lowest = 0;
+    for (int n = 0; n < 240; ++n) {
+      world.step(1.0 / 240);
+      const double now = energy_of(world, id);
+      REQUIRE(now <= before + 1e-12);
+      before = now;
+      const auto x = soft_positions(world, id);
+      lowest = std::min(lowest, x.back().y());
+      double longest = 0;
+      for (const SoftEdge& edge : soft_settings(world, id).edges)
+        longest = std::max(longest, (x[edge.a] - x[edge.b]).norm() / *edge.length);
+      REQUIRE(longest < 1.01);
+    }
+    if (material.bending < 1) CHECK(lowest < -0.9);
+  }
+}
+
+// A strip stretched evenly and slowly has the same strain everywhere.
+TEST_CASE("a cloth tears at its strain, however hard it is damped") {
+  for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs})
+    for (const double damping : {0.0, 2.0, 5000.0}) {
+      CAPTURE(static_cast<int>(solver));
+      CAPTURE(damping);
+      SoftSettings strip = cloth({.along = {0.2, 0, 0},
+                                  .across = {0, -1, 0},
+                                  .columns = 4,
+                                  .rows = 20,
+                                  .material = {.stretching = 500, .damping = damping, .tear = 0.1}});
+      for (std::uint32_t i = 0; i <= 4; ++i)
+        for (const std::uint32_t node : {i, 100 + i}) strip.pins.push_back({.node = node, .in_place = true});
+      strip.solver = solver;
+      World world({.gravity = {0, 0, 0}});
+      const SoftId id = add_soft(world, strip);
+      double strain = 0;
+      while (soft_tears(world, id).empty() && strain < 0.2) {
+        strain += 0.1 / 240;
+        for (std::uint32_t i = 100; i <= 104; ++i)
+          lead_pin(world, id, i, strip.positions[i] - Vec3(0, strain, 0), Vec3(0, -0.1, 0));
+        world.step(1.0 / 240);
+      }
+      CHECK(strain > 0.092);
+      CHECK(strain < 0.101);
+    }
+}
+
 // Cloth and step by step the same fall: what hardly stretches swings as what is ten times as stiff.
 TEST_CASE("the energy of a cantilevered cloth of springs never grows, however stiff it is, and it swings as it must") {
   std::vector<double> ends;

@@ -144,6 +144,10 @@ void read_sub_step(const json::Value& value, Read& read, Building&) {
   read.described.soft.sub_step = 1 / parts;
 }
 
+void read_iterations(const json::Value& value, Read& read, Building&) {
+  if (value.is(Kind::number)) read.described.soft.iterations = static_cast<int>(value.number());
+}
+
 // The fields of a soft body beside its kind
 std::vector<fields::Row<Read>> own_rows() {
   const auto of_soft = [](auto SoftSettings::*part) {
@@ -164,7 +168,7 @@ std::vector<fields::Row<Read>> own_rows() {
               "constraints with compliance, or forces and backward Euler", of_soft(&SoftSettings::solver)),
           {"sub_step", sub_step_form, "longest, s; absent: 1/1920 of positions, 1/240 of springs", {read_sub_step}},
           {"iterations", bounded("a whole number from 1 to 1000", 1, false, 1000, true),
-           "passes over all constraints in a sub-step", member_of(&SoftSettings::iterations)},
+           "passes over all constraints in a sub-step; absent: 1 to 4, by the stiffest", {read_iterations}},
           {"radius", &ValueForms::positive, "of its nodes where they meet bodies, m", member_of(&SoftSettings::radius)},
           {"friction", &ValueForms::not_negative, "with bodies", member_of(&SoftSettings::friction)},
           {"linear_damping", &ValueForms::not_negative, "1/s", member_of(&SoftSettings::linear_damping)},

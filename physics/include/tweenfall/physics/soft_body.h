@@ -91,11 +91,14 @@ struct SoftSettings {
   /// Longest sub-step, s; absent: 1/1920 for constraints, 1/240 for springs. All soft bodies of a world use the
   /// shortest; no step takes more than 1000 sub-steps.
   std::optional<double> sub_step{};
-  /// Passes over all constraints in a sub-step, there and back, 1 to 1000; springs do not read it. What bends stiffly,
-  /// is damped hard or bears far more than its own mass needs several, or shorter sub-steps: until they agree it gives
-  /// way too much. What hangs with T newtons on nodes of mass m, its edges l long, falls where a sub-step is longer
-  /// than about sqrt(iterations l m / T); `inspect` tells.
-  int iterations = 1;
+  /// Passes over all constraints in a sub-step of h seconds, there and back, 1 to 1000; absent: 1, or the 2 to 4 that
+  /// stiff edges and bends take. Springs do not read it. An edge acts with at most iterations m / h^2 newtons per
+  /// meter, where 1 / m is the sum of its ends' inverse masses, and is damped by at most iterations m / h; a bend
+  /// likewise; `inspect` tells of edges that are stiffer. Only those of ropes and other chains, solved all at once, are
+  /// as stiff as they are made. What bears far more than its own mass gives way by more than it should. What hangs with
+  /// T newtons on nodes of mass m, its edges l long, falls where a sub-step is longer than about sqrt(iterations l m /
+  /// T); `inspect` tells.
+  std::optional<int> iterations{};
   double radius = 0.01;       ///< of the nodes when they collide with bodies, m; > 0
   double friction = 0.5;      ///< with bodies: sqrt(f1 f2)
   double linear_damping = 0;  ///< 1/s: how fast the speed of a free node decays
@@ -187,7 +190,7 @@ void remove_soft(World& world, SoftId soft);
 
 [[nodiscard]] std::span<const Vec3> soft_positions(const World& world, SoftId soft);   ///< m, valid until a change
 [[nodiscard]] std::span<const Vec3> soft_velocities(const World& world, SoftId soft);  ///< m/s
-/// As it was added, with all rest lengths and rest volumes filled in.
+/// As it was added, with all rest lengths, rest volumes, sub-steps and iterations filled in.
 [[nodiscard]] const SoftSettings& soft_settings(const World& world, SoftId soft);
 [[nodiscard]] bool torn(const World& world, SoftId soft, std::size_t edge);
 struct SoftTear {
@@ -202,7 +205,7 @@ struct SoftTear {
 
 struct SoftEnergy {
   double kinetic = 0;  ///< J
-  double elastic = 0;  ///< of everything of finite stiffness, J
+  double elastic = 0;  ///< of everything of finite stiffness, with the stiffness with which it acts, J
   double weight = 0;   ///< against the world's gravity, 0 at the origin, J
 };
 [[nodiscard]] SoftEnergy soft_energy(const World& world, SoftId soft);
@@ -216,7 +219,10 @@ void unpin(World& world, SoftId soft, std::uint32_t node);  ///< the node keeps 
 void lead_pin(World& world, SoftId soft, std::uint32_t node, const Vec3& point, const Vec3& velocity);
 struct SoftPinReading {
   SoftPin pin;
-  Vec3 force{0, 0, 0};  ///< by the node on what holds it, mean over the last step, N
+  /// By the node on what holds it, mean over the last step, N. Where the world goes by an Euler integrator this is of
+  /// first order: what hangs at rest under a drag of c per second weighs c dt / (2 + c dt) of its weight too little by
+  /// the explicit, too much by the two others. By all other integrators it weighs what it weighs.
+  Vec3 force{0, 0, 0};
 };
 [[nodiscard]] std::vector<SoftPinReading> soft_pins(const World& world, SoftId soft);  ///< by node
 

@@ -255,13 +255,16 @@ void World::Implementation::note_soft_starts() {
   for (const state::Body& body : bodies) soft_starts.push_back({body.center, body.motion.pose.rotation, body.twist});
 }
 
-void World::Implementation::advance_softs(double dt) {
+void World::Implementation::advance_softs(double dt, double whole) {
   if (softs.empty()) return;
   double longest = 0;
   for (const soft::SoftBody& body : softs)
     if (body.alive) longest = longest > 0 ? std::min(longest, *body.made->sub_step) : *body.made->sub_step;
   if (!(longest > 0)) return;
-  const double count = std::clamp(std::ceil(dt / longest - 1e-9), 1.0, soft::most_sub_steps), h = dt / count;
+  const auto count_of = [longest](double span) {
+    return std::clamp(std::ceil(span / longest - 1e-9), 1.0, soft::most_sub_steps);
+  };
+  const double count = count_of(dt), h = dt / count, pace = whole / count_of(whole);
   const int sub_steps = settings.plane == WorldPlane::none ? 1 : flat.own().sub_steps();
   soft::Partners partners(bodies, soft_starts, loads, settings, sub_steps, dt);
   const std::vector<soft::Blowing> winds = soft::winds_at(forces, time);
@@ -269,6 +272,7 @@ void World::Implementation::advance_softs(double dt) {
   std::vector<const soft::SoftBody*> there;
   for (soft::SoftBody& body : softs)
     if (body.alive) {
+      body.pace = pace;
       courses.emplace_back(body, bodies, partners, settings, winds, time, dt);
       there.push_back(&body);
     }

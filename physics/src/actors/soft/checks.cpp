@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "actors/soft/soft_state.h"
+#include "actors/soft/resolved.h"
 #include "state/checks.h"
 #include "state/countable.h"
 
@@ -167,8 +167,9 @@ SoftSettings checked(const SoftSettings& given) {
   if (!settings.sub_step) settings.sub_step = settings.solver == SoftSolver::positions ? 1.0 / 1920 : 1.0 / 240;
   require(*settings.sub_step > 0 && state::countable(*settings.sub_step),
           "sub-steps of a soft body must be longer than 0 s, not " + number_text(*settings.sub_step));
-  require(settings.iterations >= 1 && settings.iterations <= 1000,
-          "a soft body takes 1 to 1000 iterations, not " + std::to_string(settings.iterations));
+  if (!settings.iterations) settings.iterations = enough_iterations(settings);
+  require(*settings.iterations >= 1 && *settings.iterations <= 1000,
+          "a soft body takes 1 to 1000 iterations, not " + std::to_string(*settings.iterations));
   require(settings.radius >= 1e-9 && state::countable(settings.radius),
           "the radius of a soft body's nodes must be at least 1e-9 m, not " + number_text(settings.radius));
   state::require_amount(settings.friction, "friction of a soft body");
@@ -187,6 +188,7 @@ SoftBody begun(SoftSettings settings) {
   body.velocities.resize(body.positions.size(), Vec3(0, 0, 0));
   body.torn.assign(settings.edges.size(), 0);
   settings.pins.clear();
+  body.pace = *settings.sub_step;
   body.made = std::make_shared<const SoftSettings>(std::move(settings));
   find_gone(body);
   return body;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "actors/soft/resolved.h"
+
 namespace tweenfall::soft {
 
 double elastic_energy(const SoftBody& body) {
@@ -13,14 +15,18 @@ double elastic_energy(const SoftBody& body) {
   const auto add = [&energy](double stiffness, double off) {
     if (!std::isinf(stiffness)) energy += 0.5 * stiffness * off * off;
   };
-  for (std::size_t i = 0; i < made.edges.size(); ++i)
-    if (body.torn[i] == 0)
-      add(made.edges[i].stiffness, (x[made.edges[i].a] - x[made.edges[i].b]).norm() - *made.edges[i].length);
+  const bool passed_over = passes_over_edges(body);
+  for (std::size_t i = 0; i < made.edges.size(); ++i) {
+    const SoftEdge& edge = made.edges[i];
+    if (body.torn[i] != 0 || std::isinf(edge.stiffness)) continue;
+    add(passed_over ? resolved(body, edge).stiffness : edge.stiffness, (x[edge.a] - x[edge.b]).norm() - *edge.length);
+  }
   for (std::size_t i = 0; i < made.bends.size(); ++i) {
-    if (body.gone.bends[i] != 0) continue;
+    const SoftBend& bend = made.bends[i];
+    if (body.gone.bends[i] != 0 || std::isinf(bend.stiffness)) continue;
     Vec3 off(0, 0, 0);
-    for (std::size_t k = 0; k < 4; ++k) off += made.bends[i].weights[k] * x[made.bends[i].nodes[k]];
-    add(made.bends[i].stiffness, off.norm());
+    for (std::size_t k = 0; k < 4; ++k) off += bend.weights[k] * x[bend.nodes[k]];
+    add(resolved_stiffness(body, bend), off.norm());
   }
   return energy + volume_energy(body);
 }

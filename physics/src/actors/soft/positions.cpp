@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "actors/soft/chains.h"
+#include "actors/soft/resolved.h"
 #include "actors/soft/sub_step.h"
 
 namespace tweenfall::soft {
@@ -35,7 +36,7 @@ class Positions {
     // up.
     chains_ = chains_of(step_.body);
     find_loads();
-    for (int i = 0; i < made_.iterations; ++i) {
+    for (int i = 0; i < *made_.iterations; ++i) {
       pass(step_.backward);
       pass(!step_.backward);
     }
@@ -131,7 +132,9 @@ class Positions {
     const double length = between.norm();
     if (step_.body.torn[i] != 0 || !(weights > 0) || !(length > 0)) return;
     const Vec3 normal = between / length;
-    const double soft = compliance(edge.stiffness), damped = edge.damping / (edge.stiffness * step_.h);
+    const auto [stiffness, damping] =
+        chains_.empty() ? resolved(step_.body, edge) : Resolved{edge.stiffness, edge.damping};
+    const double soft = compliance(stiffness), damped = damping / (stiffness * step_.h);
     const double drawn = normal.dot((p_[edge.a] - x_[edge.a]) - (p_[edge.b] - x_[edge.b]));
     double& multiplier = edge_multipliers_[i];
     const double change =
@@ -245,7 +248,7 @@ class Positions {
       weights += bend.weights[k] * bend.weights[k] * weight_[bend.nodes[k]];
     }
     if (!(weights > 0)) return;
-    const double soft = compliance(bend.stiffness);
+    const double soft = compliance(resolved_stiffness(step_.body, bend));
     const Vec3 change = (-off - soft * bend_multipliers_[i]) / (weights + soft);
     bend_multipliers_[i] += change;
     for (std::size_t k = 0; k < 4; ++k)

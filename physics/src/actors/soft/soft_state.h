@@ -28,6 +28,7 @@ struct SoftBody {
   std::vector<Vec3> positions, velocities;
   std::vector<char> torn;      ///< by edge
   std::vector<PinState> pins;  ///< by node
+  double pace = 0;             ///< length of the sub-steps of a whole step, s
   Gone gone;
   std::vector<SoftTear> tears;  ///< of the last step
 

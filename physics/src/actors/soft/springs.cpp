@@ -9,7 +9,9 @@
 //
 // Sources: Baraff, Witkin, Large Steps in Cloth Simulation, 1998; Choi, Ko, Stable but Responsive Cloth, 2002 (the edge
 // under pressure); Martin, Thomaszewski, Grinspun, Gross, Example-Based Elastic Materials, 2011, equation 6 (as what is
-// least); Shewchuk, An Introduction to the Conjugate Gradient Method Without the Agonizing Pain, 1994.
+// least); Shewchuk, An Introduction to the Conjugate Gradient Method Without the Agonizing Pain, 1994; Li, Ferguson,
+// Schneider, Langlois, Zorin, Panozzo, Jiang, Kaufman, Incremental Potential Contact, 2020, section 5 (friction, as a
+// loss by what pressed before).
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -29,8 +31,9 @@ constexpr int most_halvings = 12, most_ventured = 2;
 /// How many times as stiff as heavy in a sub-step what is no chain is when its matrix is worth being factored, over the
 /// square of how far it reaches.
 constexpr double stiff_enough = 100;
-/// Against the mass that a contact moves in a sub-step: how stiff it is.
-constexpr double contact_stiffness = 1e4;
+/// Against the mass that a contact moves in a sub-step: how stiff it is, and how many times as stiff friction is that
+/// holds: what it holds creeps by its force over that in each sub-step.
+constexpr double contact_stiffness = 1e4, grip_stiffness = 100;
 
 /// Velocities of all nodes, and then of the bodies: linear and angular ones in turn.
 using Rates = std::vector<Vec3>;
@@ -59,9 +62,9 @@ class Springs {
 
   void solve() {
     begin();
-    for (int i = 0; i < (chained_ ? most_exact_steps : most_newton_steps) && improve(); ++i) {
-    }
-    if (ventured_ > 0) v_ = trusted_.v;
+    settle();
+    // Friction is limited by what presses, and what presses is known only now.
+    if (find_grips()) settle();
     if (step_.held.empty() && !touches()) keep_momentum();
     end();
   }
@@ -76,6 +79,13 @@ class Springs {
     });
   }
   [[nodiscard]] std::size_t linear_of(std::uint32_t partner) const { return nodes_ + 2 * std::size_t{partner}; }
+
+  void settle() {
+    ventured_ = 0;
+    for (int i = 0; i < (chained_ ? most_exact_steps : most_newton_steps) && improve(); ++i) {
+    }
+    if (ventured_ > 0) v_ = trusted_.v;
+  }
 
   void begin() {
     // A drag of m c v at the end of the sub-step acts as if the mass were larger by c h, and fell that much less.
@@ -97,6 +107,7 @@ class Springs {
       const double give = 1 / mass_[contact.node] + partner.give_along(contact.normal, contact.arm);
       stiffness_.push_back(contact_stiffness / (give * h * h));
     }
+    grips_.assign(step_.contacts.size(), 0);
     lead(v_);
   }
 
@@ -124,12 +135,62 @@ class Springs {
       if (!step_.partners[p].moves()) forces[linear_of(p)] = forces[linear_of(p) + 1] = Vec3(0, 0, 0);
   }
 
-  [[nodiscard]] double gap(const NodeContact& contact, const Rates& v) const {
-    const Partner& partner = step_.partners[contact.partner];
+  /// Displacement of a node in the sub-step against that of a surface, of which `carried` is known.
+  [[nodiscard]] Vec3 apart(const NodeContact& contact, const Rates& v, const Vec3& carried) const {
     const std::size_t linear = linear_of(contact.partner);
-    const Vec3 given = step_.h * (v[linear] + v[linear + 1].cross(contact.arm));
-    const Vec3 surface = partner.now.center + contact.arm + given;
-    return contact.normal.dot(x_[contact.node] + step_.h * v[contact.node] - surface) - made_.radius - contact.least;
+    return step_.h * (v[contact.node] - v[linear] - v[linear + 1].cross(contact.arm)) - carried;
+  }
+  [[nodiscard]] double gap(const NodeContact& contact, const Rates& v) const {
+    const Vec3 surface = step_.partners[contact.partner].now.center + contact.arm;
+    return contact.normal.dot(apart(contact, v, surface - x_[contact.node])) - made_.radius - contact.least;
+  }
+
+  [[nodiscard]] Vec3 slid(const NodeContact& contact, const Rates& v) const {
+    const Vec3 way = apart(contact, v, contact.carried);
+    return way - contact.normal.dot(way) * contact.normal;
+  }
+
+  struct Resistance {
+    double energy = 0;  ///< or loss, J
+    Vec3 force{0, 0, 0};
+    Mat3 stiffness = Mat3::Zero();
+  };
+  /// What a contact opposes to a displacement of the node: along the normal as a spring, where the surfaces overlap;
+  /// across it as a spring too, until it reaches the force by which friction holds.
+  [[nodiscard]] Resistance resistance(std::size_t k, const Rates& v) const {
+    const NodeContact& contact = step_.contacts[k];
+    const Vec3& normal = contact.normal;
+    const double stiff = stiffness_[k], depth = std::min(0.0, gap(contact, v)), grip = grips_[k];
+    Resistance all;
+    if (depth < 0) all = {0.5 * stiff * depth * depth, stiff * depth * normal, stiff * normal * normal.transpose()};
+    if (!(grip > 0)) return all;
+    const Vec3 off = slid(contact, v);
+    const Mat3 across = Mat3::Identity() - normal * normal.transpose();
+    const double way = off.norm(), hold = grip_stiffness * stiff, held = grip / hold;
+    if (way <= held) {
+      all.energy += 0.5 * hold * way * way;
+      all.force += hold * off;
+      all.stiffness += hold * across;
+    } else {
+      const Vec3 along = off / way;
+      all.energy += grip * (way - 0.5 * held);
+      all.force += grip * along;
+      all.stiffness += grip / way * (across - along * along.transpose());
+    }
+    return all;
+  }
+  /// Nodes start out as if it held them: what starts by sliding would pass by the place where it is held, which is
+  /// narrow. @return whether friction holds anything
+  bool find_grips() {
+    bool any = false;
+    for (std::size_t k = 0; k < grips_.size(); ++k) {
+      const NodeContact& contact = step_.contacts[k];
+      grips_[k] = contact.friction * stiffness_[k] * std::max(0.0, -gap(contact, v_));
+      if (!(grips_[k] > 0)) continue;
+      any = true;
+      v_[contact.node] -= slid(contact, v_) / step_.h;
+    }
+    return any;
   }
 
   /// The quantity to minimize.
@@ -142,10 +203,7 @@ class Springs {
       const Vec3 angular = v[linear_of(p) + 1] - free_[linear_of(p) + 1];
       sum += 0.5 * (partner.mass * linear.squaredNorm() + angular.dot(partner.inertia * angular));
     }
-    for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
-      const double depth = std::min(0.0, gap(step_.contacts[k], v));
-      sum += 0.5 * stiffness_[k] * depth * depth;
-    }
+    for (std::size_t k = 0; k < step_.contacts.size(); ++k) sum += resistance(k, v).energy;
     return sum + energies_.at(x_, v);
   }
 
@@ -159,20 +217,18 @@ class Springs {
       gradient[linear_of(p)] += partner.mass * (v[linear_of(p)] - free_[linear_of(p)]);
       gradient[linear_of(p) + 1] += partner.inertia * (v[linear_of(p) + 1] - free_[linear_of(p) + 1]);
     }
-    pressing_.assign(step_.contacts.size(), 0);
+    resisting_.assign(step_.contacts.size(), Mat3::Zero());
     for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
-      const NodeContact& contact = step_.contacts[k];
-      const double depth = gap(contact, v);
-      if (!(depth < 0)) continue;
-      pressing_[k] = 1;
-      add_along(contact, step_.h * stiffness_[k] * depth, gradient);
+      const Resistance against = resistance(k, v);
+      resisting_[k] = step_.h * step_.h * against.stiffness;
+      add_between(step_.contacts[k], step_.h * against.force, gradient);
     }
   }
-  /// Adds a push along a contact's normal, against the body.
-  void add_along(const NodeContact& contact, double push, Rates& out) const {
-    out[contact.node] += push * contact.normal;
-    out[linear_of(contact.partner)] -= push * contact.normal;
-    out[linear_of(contact.partner) + 1] -= push * contact.arm.cross(contact.normal);
+  /// Adds a push on a contact's node, against the body.
+  void add_between(const NodeContact& contact, const Vec3& push, Rates& out) const {
+    out[contact.node] += push;
+    out[linear_of(contact.partner)] -= push;
+    out[linear_of(contact.partner) + 1] -= contact.arm.cross(push);
   }
 
   /// The second derivative times a change.
@@ -189,11 +245,10 @@ class Springs {
       out[linear_of(p) + 1] += partner.inertia * spread_[linear_of(p) + 1];
     }
     for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
-      if (pressing_[k] == 0) continue;
       const NodeContact& contact = step_.contacts[k];
       const std::size_t linear = linear_of(contact.partner);
       const Vec3 apart = spread_[contact.node] - spread_[linear] - spread_[linear + 1].cross(contact.arm);
-      add_along(contact, step_.h * step_.h * stiffness_[k] * contact.normal.dot(apart), out);
+      add_between(contact, resisting_[k] * apart, out);
     }
     hand_on(out);
   }
@@ -209,14 +264,12 @@ class Springs {
       blocks_[linear_of(p) + 1] = partner.moves() ? partner.inertia : Mat3(Mat3::Identity());
     }
     for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
-      if (pressing_[k] == 0) continue;
       const NodeContact& contact = step_.contacts[k];
-      const double stiff = step_.h * step_.h * stiffness_[k];
-      const Vec3 lever = contact.arm.cross(contact.normal);
-      blocks_[contact.node] += stiff * contact.normal * contact.normal.transpose();
+      blocks_[contact.node] += resisting_[k];
       if (!step_.partners[contact.partner].moves()) continue;
-      blocks_[linear_of(contact.partner)] += stiff * contact.normal * contact.normal.transpose();
-      blocks_[linear_of(contact.partner) + 1] += stiff * lever * lever.transpose();
+      const Mat3 lever = crossing(contact.arm);
+      blocks_[linear_of(contact.partner)] += resisting_[k];
+      blocks_[linear_of(contact.partner) + 1] += lever.transpose() * resisting_[k] * lever;
     }
     chained_ = reach_ > 0 && factor_chain();
     for (const Held& held : step_.held) {
@@ -234,12 +287,8 @@ class Springs {
     chain.clear(nodes_, reach_);
     for (std::size_t i = 0; i < nodes_; ++i) chain.add(i, i, mass_[i] * Mat3::Identity());
     energies_.add_all_blocks(chain);
-    for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
-      if (pressing_[k] == 0) continue;
-      const NodeContact& contact = step_.contacts[k];
-      const double stiff = step_.h * step_.h * stiffness_[k];
-      chain.add(contact.node, contact.node, stiff * contact.normal * contact.normal.transpose());
-    }
+    for (std::size_t k = 0; k < step_.contacts.size(); ++k)
+      chain.add(step_.contacts[k].node, step_.contacts[k].node, resisting_[k]);
     return all_.factor(step_.held, blocks_, nodes_);
   }
 
@@ -355,14 +404,10 @@ class Springs {
     }
     for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
       NodeContact& contact = step_.contacts[k];
-      const double depth = gap(contact, v_);
-      if (!(depth < 0)) continue;
-      contact.pressed = -step_.h * step_.h * stiffness_[k] * depth;
+      contact.pressed = step_.h * step_.h * stiffness_[k] * std::max(0.0, -gap(contact, v_));
       Partner& partner = step_.partners[contact.partner];
-      if (!partner.moves()) partner.taken -= contact.pressed / step_.h * contact.normal;
+      if (!partner.moves()) partner.taken += step_.h * resistance(k, v_).force;
     }
-    for (NodeContact& contact : step_.contacts)
-      if (contact.pressed > 0) rub(contact);
     for (std::size_t i = 0; i < nodes_; ++i) x_[i] += step_.h * v_[i];
     for (const Held& held : step_.held) {
       if (held.partner != Held::nobody) continue;
@@ -370,21 +415,6 @@ class Springs {
       v_[held.node] = held.velocity;
     }
     for (std::size_t i = 0; i < nodes_; ++i) step_.body.velocities[i] = v_[i];
-  }
-
-  /// Friction, limited by the push along the normal.
-  void rub(NodeContact& contact) {
-    Partner& partner = step_.partners[contact.partner];
-    const Vec3 carried = contact.carried + partner.moved + partner.turned.cross(contact.arm);
-    Vec3 slid = step_.h * v_[contact.node] - carried;
-    slid -= contact.normal.dot(slid) * contact.normal;
-    const double way = slid.norm();
-    if (!(way > 0)) return;
-    const Vec3 along = slid / way;
-    const double give = 1 / mass_[contact.node] + partner.give_along(along, contact.arm);
-    contact.rubbed = std::min(way / give, contact.friction * contact.pressed);
-    v_[contact.node] -= contact.rubbed / (mass_[contact.node] * step_.h) * along;
-    partner.give(contact.rubbed * along, contact.arm, step_.h);
   }
 
   SubStep& step_;
@@ -396,7 +426,8 @@ class Springs {
   Rates v_, free_, gradient_, change_, rest_, steered_, toward_, product_, trial_, spread_;
   std::vector<Mat3> blocks_;
   std::vector<double> stiffness_;  ///< by contact, N/m
-  std::vector<char> pressing_;     ///< by contact
+  std::vector<double> grips_;      ///< by contact: what friction holds, N
+  std::vector<Mat3> resisting_;    ///< by contact, kg
   std::size_t reach_;
   ChainAndHolders all_;
   bool chained_ = false;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "actors/soft/chain_factor.h"
+#include "actors/soft/resolved.h"
 #include "forces/integrators/integrators.h"
 #include "forces/pace.h"
 #include "queries/body_scene.h"
@@ -108,6 +109,7 @@ class Finder {
     double h = description_.step;
     for (const auto& [name, id] : list) h = std::min(h, *soft_settings(state_.world, id).sub_step);
     if (made.solver == SoftSolver::springs) return look_at_stiffness(soft, made, h);
+    look_at_resolution(soft, made, h);
     const std::vector<state::Body>& bodies = queries::bodies_of(state_.world);
     for (const auto& [pin, force] : soft_pins(state_.world, list[soft].second)) {
       if (pin.body == BodyId{} || bodies[pin.body.index].immovable()) continue;
@@ -119,7 +121,7 @@ class Finder {
       for (const SoftEdge& edge : made.edges) {
         if (edge.a != pin.node && edge.b != pin.node) continue;
         const double mass = made.masses[edge.a == pin.node ? edge.b : edge.a];
-        const double longest = std::sqrt(*edge.length * mass / load * made.iterations);
+        const double longest = std::sqrt(*edge.length * mass / load * *made.iterations);
         if (!(h > longest)) continue;
         tell(Part::soft, soft,
              "may not hold \"" + description_.nodes[state_.node_of[pin.body.index]].name + "\", whose " +
@@ -128,6 +130,20 @@ class Finder {
                  " s, or more iterations; by springs any will do");
         return;
       }
+    }
+  }
+
+  /// Infinite stiffness is no number that anybody expects to read off a stretch.
+  void look_at_resolution(std::size_t soft, const SoftSettings& made, double h) {
+    if (!soft::passes_over_edges(soft::begun(made))) return;
+    for (const SoftEdge& edge : made.edges) {
+      const double acts = soft::resolved_stiffness(made, edge, h);
+      if (std::isinf(edge.stiffness) || !(edge.stiffness > acts)) continue;
+      tell(Part::soft, soft,
+           "has edges of " + brief_text(edge.stiffness) + " N/m that act with " + brief_text(acts) +
+               " N/m: by positions more takes sub-steps of less than " +
+               brief_text(h * std::sqrt(acts / edge.stiffness)) + " s, or more iterations; by springs any will do");
+      return;
     }
   }
 
