@@ -62,39 +62,42 @@ void ChainFactor::fix(std::size_t node) {
 }
 
 bool ChainFactor::factor() {
+  columns_.resize(size_ * width_);
   for (std::size_t i = 0; i < size_; ++i) {
     const std::size_t first = i - std::min(i, band_);
-    // Rows hold L D until they are divided by D.
-    for (std::size_t j = first; j < i; ++j) {
-      double sum = at(i, j);
-      for (std::size_t k = std::max(first, j - std::min(j, band_)); k < j; ++k) sum -= at(i, k) * at(j, k);
-      at(i, j) = sum;
+    double* const row = &rows_[i * width_ + band_ - i];
+    // Each entry, once the columns before have been taken off it, is taken off the entries behind it. Rows hold L D
+    // until they are divided by D.
+    for (std::size_t k = first; k < i; ++k) {
+      const double taken = row[k];
+      const double* const column = &columns_[k * width_ - k];
+      for (std::size_t j = k + 1; j < i; ++j) row[j] -= taken * column[j];
     }
-    double left = at(i, i);
+    double left = row[i];
     for (std::size_t j = first; j < i; ++j) {
-      const double scaled = at(i, j) / at(j, j);
-      left -= scaled * at(i, j);
-      at(i, j) = scaled;
+      const double scaled = row[j] / at(j, j);
+      left -= scaled * row[j];
+      row[j] = scaled;
+      columns_[j * width_ + i - j] = scaled;
     }
     if (!(left > 0)) return false;
-    at(i, i) = left;
+    row[i] = left;
   }
   return true;
 }
 
 void ChainFactor::solve(std::vector<Vec3>& values) const {
-  const auto value = [&values](std::size_t i) -> double& { return values[i / 3][static_cast<Eigen::Index>(i % 3)]; };
+  double* const value = values.front().data();
   for (std::size_t i = 0; i < size_; ++i) {
-    const double* row = &rows_[i * width_];
-    double sum = value(i);
-    for (std::size_t j = i - std::min(i, band_); j < i; ++j) sum -= row[j + band_ - i] * value(j);
-    value(i) = sum;
+    const double* const column = &columns_[i * width_ - i];
+    const double known = value[i];
+    for (std::size_t j = i + 1; j < std::min(size_, i + width_); ++j) value[j] -= column[j] * known;
   }
-  for (std::size_t i = 0; i < size_; ++i) value(i) /= rows_[i * width_ + band_];
+  for (std::size_t i = 0; i < size_; ++i) value[i] /= rows_[i * width_ + band_];
   for (std::size_t i = size_; i-- > 0;) {
-    const double* row = &rows_[i * width_];
-    const double known = value(i);
-    for (std::size_t j = i - std::min(i, band_); j < i; ++j) value(j) -= row[j + band_ - i] * known;
+    const double* const row = &rows_[i * width_ + band_ - i];
+    const double known = value[i];
+    for (std::size_t j = i - std::min(i, band_); j < i; ++j) value[j] -= row[j] * known;
   }
 }
 

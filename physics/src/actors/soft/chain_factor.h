@@ -39,6 +39,7 @@ class ChainFactor {
   std::size_t nodes_ = 0, size_ = 0;
   std::size_t band_ = 0, width_ = 1;  ///< numbers of a row before its diagonal, and including it
   std::vector<double> rows_;          ///< by row, up to the diagonal
+  std::vector<double> columns_;       ///< of the factor, by column, from the diagonal down
 };
 
 }  // namespace tweenfall::soft
