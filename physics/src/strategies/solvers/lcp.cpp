@@ -13,7 +13,7 @@ namespace {
 
 /// Up to `few_touches` the problem is solved by Lemke's pivots, above by projected Gauss-Seidel; but up to
 /// `most_pivoted` by block pivots if a few passes of that are not enough, as when heavy bodies lie on light ones.
-constexpr std::size_t few_touches = 96, most_pivoted = 2048;
+constexpr std::size_t few_touches = 96, most_pivoted = 1536;
 /// How far off it may end, m/s, where rounding allows it, and passes that projected Gauss-Seidel may take.
 constexpr double near_enough_to_end = 2e-10, near_at_most = 5e-10;
 constexpr int few_sweeps = 400, most_sweeps = 20000;
