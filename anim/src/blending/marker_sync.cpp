@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "blending/parts.h"
+#include "blending/phase_course.h"
 #include "blending/shares.h"
 
 namespace tweenfall {
@@ -70,6 +70,12 @@ std::string problems_of(SyncClip& clip, const std::string& name) {
       problems += "\n  the markers \"" + clip.markers[i - 1].name + "\" and \"" + clip.markers[i].name + "\" of " +
                   name + " are both at " + number_text(clip.markers[i].time) + " s";
   return problems;
+}
+
+double sum_of(std::span<const double> weights) noexcept {
+  double sum = 0;
+  for (const double weight : weights) sum += std::max(weight, 0.0);
+  return sum;
 }
 
 }  // namespace
@@ -205,13 +211,21 @@ Sample<double> MarkerSync::running(double phase, std::span<const Sample<double>>
   return {phase, rate, -(by_weights + by_phase * rate) * rate * rate};
 }
 
-template <class Share>
-double MarkerSync::advanced_by(double phase, double seconds, const Share& share) const noexcept {
+double MarkerSync::share(std::span<const double> weights, double sum, std::size_t clip) const noexcept {
+  if (!(sum > 1e-100) || !(sum < 1e300)) return 1 / static_cast<double>(clips_.size());
+  return std::max(weights[clip], 0.0) / sum;
+}
+
+double MarkerSync::in_period(std::size_t clip) const noexcept {
+  return clips_[clip].duration * (period_ / static_cast<double>(clips_[clip].stretches.size()));
+}
+
+double MarkerSync::advanced(double phase, double seconds, std::span<const double> weights) const noexcept {
   if (seconds == 0) return phase;
+  const double sum_of_weights = blending::sum_of(weights);
   // The averaged advance of the clips in one period: whole periods are taken out, and put back at the end.
   double whole = 0;
-  for (std::size_t i = 0; i < clips_.size(); ++i)
-    whole += share(i) * clips_[i].duration * (period_ / static_cast<double>(clips_[i].stretches.size()));
+  for (std::size_t i = 0; i < clips_.size(); ++i) whole += share(weights, sum_of_weights, i) * in_period(i);
   const double periods = std::floor(seconds / whole), rest = seconds - periods * whole;
   if (!std::isfinite(periods)) return phase;  // loops too short to be counted
   const double start = phase - std::floor(phase / period_) * period_;
@@ -219,7 +233,7 @@ double MarkerSync::advanced_by(double phase, double seconds, const Share& share)
     double sum = 0;
     slope = 0;
     for (std::size_t i = 0; i < clips_.size(); ++i) {
-      const double part = share(i);
+      const double part = share(weights, sum_of_weights, i);
       if (part == 0) continue;
       const Place at = place(clips_[i], to), before = place(clips_[i], start);
       sum += part * ((at.time - before.time) + (at.cycle - before.cycle) * clips_[i].duration);
@@ -241,37 +255,38 @@ double MarkerSync::advanced_by(double phase, double seconds, const Share& share)
   return phase + ((at - start) + periods * period_);
 }
 
-double MarkerSync::advanced(double phase, double seconds, std::span<const double> weights) const noexcept {
-  return advanced(phase, seconds, weights, weights);
-}
-
 double MarkerSync::advanced(double phase, double seconds, std::span<const double> from,
                             std::span<const double> to) const noexcept {
-  const auto sum_of = [](std::span<const double> weights) noexcept {
+  if (std::ranges::equal(from, to)) return advanced(phase, seconds, from);
+  if (seconds == 0 || !std::isfinite(seconds)) return phase;
+  const double sum_from = blending::sum_of(from), sum_to = blending::sum_of(to);
+  const auto pace = [&](double time, double at) noexcept {
+    const double part = time / seconds;
     double sum = 0;
-    for (const double weight : weights) sum += std::max(weight, 0.0);
+    for (std::size_t i = 0; i < clips_.size(); ++i) {
+      const double now = (1 - part) * share(from, sum_from, i) + part * share(to, sum_to, i);
+      if (now != 0) sum += now * place(clips_[i], at).first;
+    }
     return sum;
   };
-  const double sum_from = sum_of(from), sum_to = sum_of(to);
-  const auto share_of = [this](std::span<const double> weights, double sum, std::size_t i) noexcept {
-    if (!(sum > 1e-100) || !(sum < 1e300)) return 1 / static_cast<double>(clips_.size());
-    return std::max(weights[i], 0.0) / sum;
-  };
-  const bool steady = std::ranges::equal(from, to);
-  // Holding the middle shares over each of some equal parts is accurate to second order, with errors in even powers of
-  // their length only.
-  const auto in_parts = [&](int parts) noexcept {
-    double at = phase;
-    for (int k = 0; k < parts; ++k) {
-      const double middle = (k + 0.5) / parts;
-      at = advanced_by(at, seconds / parts, [&](std::size_t i) noexcept {
-        const double start = share_of(from, sum_from, i);
-        return steady ? start : start + middle * (share_of(to, sum_to, i) - start);
-      });
-    }
-    return at;
-  };
-  return steady ? in_parts(1) : blending::extrapolated(in_parts);
+  const blending::PhaseCourse course(pace, seconds);
+  const double start = phase - std::floor(phase / period_) * period_;
+  const double around = seconds > 0 ? period_ : -period_;
+  blending::CoursePlace at = course.until({start, 0}, start + around);
+  double periods = 0;
+  if (at.time != seconds) {
+    // The pace is linear in the time, so each period multiplies the time by one number and adds another: whole periods
+    // are a geometric series.
+    double exponent = 0;
+    for (std::size_t i = 0; i < clips_.size(); ++i)
+      exponent += (share(to, sum_to, i) - share(from, sum_from, i)) * in_period(i) / std::abs(seconds);
+    const double growth = std::expm1(exponent), first = at.time / seconds;
+    periods = std::floor(growth == 0 ? 1 / first : std::log1p(growth / first) / exponent);
+    if (!std::isfinite(periods)) return phase;  // loops too short to be counted
+    const double part = growth == 0 ? periods * first : first * (std::expm1(periods * exponent) / growth);
+    at = course.until({start, part * seconds}, start + around);
+  }
+  return phase + ((at.phase - start) + periods * around);
 }
 
 SyncedTime MarkerSync::time(std::size_t clip, const Sample<double>& phase) const noexcept {

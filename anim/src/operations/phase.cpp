@@ -1,6 +1,6 @@
 #include "operations/phase.h"
 
-#include "blending/parts.h"
+#include "blending/phase_course.h"
 
 #include <algorithm>
 #include <array>
@@ -97,26 +97,21 @@ class Phase::Step {
   }
 
   [[nodiscard]] double at(double time) const noexcept {
-    const double passed = time - from_.time;
-    // Effective seconds: haste makes them more.
-    const auto counted = [&](double part) noexcept {
-      if (from_.place.haste == 0) return part * passed;
-      const double left = 1 - part * passed / length_;
-      return part * passed + from_.place.haste * length_ / 3 * (1 - left * left * left);
+    const double passed = time - from_.time, phase = from_.place.phase;
+    if (steady_ && from_.place.haste == 0) {
+      std::array<double, most_blended> held;
+      for (std::size_t i = 0; i < size_; ++i) held[i] = shares_[i][0];
+      return sync_.advanced(phase, passed, {held.data(), size_});
+    }
+    const auto pace = [&](double seconds, double at) noexcept {
+      std::array<Sample<double>, most_blended> shares;
+      const double part = seconds / length_, left = 1 - part;
+      for (std::size_t i = 0; i < size_; ++i) shares[i] = share(i, part);
+      return 1 / (sync_.running(at, {shares.data(), size_}).rate * (1 + from_.place.haste * left * left));
     };
-    std::array<double, most_blended> held;
-    const std::span<const double> own(held.data(), size_);
-    const auto in_parts = [&](int parts) noexcept {
-      double phase = from_.place.phase;
-      for (int part = 0; part < parts; ++part) {
-        const double middle = steady_ ? 0 : (part + 0.5) / parts * passed / length_;
-        for (std::size_t i = 0; i < size_; ++i) held[i] = share(i, middle).value;
-        const double begin = static_cast<double>(part) / parts, end = (part + 1.0) / parts;
-        phase = sync_.advanced(phase, counted(end) - counted(begin), own);
-      }
-      return phase;
-    };
-    return steady_ ? in_parts(1) : blending::extrapolated(in_parts);
+    const double wrapped = phase - std::floor(phase / sync_.period()) * sync_.period();
+    const blending::PhaseCourse course(pace, passed);
+    return phase + (course.until({wrapped, 0}, std::numeric_limits<double>::infinity()).phase - wrapped);
   }
 
   [[nodiscard]] Sample<double> sample(double time) const noexcept {

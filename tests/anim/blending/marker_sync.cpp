@@ -127,10 +127,82 @@ TEST_CASE("while weights change the phase is the same for long frames as for sho
     return phase;
   };
   const double fine = run(4000);
-  CHECK(std::abs(run(30) - fine) < 1e-7);
-  CHECK(std::abs(run(60) - fine) < 3e-8);
-  CHECK(std::abs(run(144) - fine) < 3e-9);
+  for (const int frames : {1, 30, 60, 144}) CHECK(near(run(frames), fine, 1e-12));
   CHECK(run(60) != sync.advanced(0.2, 1, share(0.5)));
+}
+
+TEST_CASE("a fade between even loops follows its logarithm, however far the loops are apart and however long it is") {
+  // With T = d phase for each clip, the phase comes by the integral of dt / (a + (b - a) t / h) = h log(b / a) / (b -
+  // a).
+  for (const double a : {0.01, 1.0, 1.0001, 300.0})
+    for (const double b : {0.02, 1.5, 100.0, 4000.0}) {
+      const MarkerSync sync({{.duration = a}, {.duration = b}});
+      const std::vector<double> first{1, 0}, second{0, 1};
+      for (const double seconds : {1e-5, 1.0 / 30, 0.7, 20.0, 1e6}) {
+        const double way = seconds * std::log(b / a) / (b - a);
+        // A rounding of the phase in the slow clip is multiplied when the fast one has taken over.
+        const double error = std::max(1e-12, 1e-16 * std::max(a / b, b / a)) * std::max(1.0, way);
+        CAPTURE(a);
+        CAPTURE(b);
+        CAPTURE(seconds);
+        CHECK(near(sync.advanced(0, seconds, first, second), way, error));
+        CHECK(near(sync.advanced(0.3, seconds, second, first) - 0.3, way, error));
+        CHECK(near(sync.advanced(0.3, -seconds, first, second) - 0.3, -way, error));
+      }
+    }
+}
+
+TEST_CASE("a fade between clips with markers is what a fine integration of the running phase gives") {
+  // Strides of 20 ms and of 12 s, uneven ones.
+  const MarkerSync sync({{.duration = 0.03, .markers = {{0.0, "left"}, {0.02, "right"}}},
+                         {.duration = 20, .markers = {{1, "right"}, {13, "left"}}},
+                         {.duration = 1}});
+  const std::vector<double> from{1, 0, 0.3}, to{0, 2, 0.1};
+  for (const double seconds : {1.0 / 30, 1.0, -1.0}) {
+    // Runge-Kutta of order 4; markers, at which it would lose its order, are met by steps.
+    double phase = 0.37, time = 0;
+    const auto rate = [&](double at, double t) {
+      std::vector<Sample<double>> weights;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double a = from[i] / 1.3, b = to[i] / 2.1;
+        weights.push_back({a + (b - a) * t / seconds, (b - a) / seconds, 0});
+      }
+      return sync.running(at, weights).rate;
+    };
+    const auto stepped = [&](double h) {
+      const double a = rate(phase, time), b = rate(phase + h / 2 * a, time + h / 2),
+                   c = rate(phase + h / 2 * b, time + h / 2), d = rate(phase + h * c, time + h);
+      return phase + h / 6 * (a + 2 * b + 2 * c + d);
+    };
+    for (int left = 20'000; left > 0; --left) {
+      const double h = (seconds - time) / left, next = stepped(h);
+      if (std::floor(next) == std::floor(phase)) {
+        phase = next;
+        time += h;
+        continue;
+      }
+      double before = 0, after = 1;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = (before + after) / 2;
+        (std::floor(stepped(middle * h)) == std::floor(phase) ? before : after) = middle;
+      }
+      const double met = seconds > 0 ? after : before;
+      phase = seconds > 0 ? std::floor(stepped(met * h)) : std::nextafter(std::floor(phase), -1e9);
+      time += met * h;
+      ++left;
+    }
+    CAPTURE(seconds);
+    CHECK(near(sync.advanced(0.37, seconds, from, to), phase, 1e-9));
+    // In one step it is the same as in many.
+    double many = 0.37;
+    const auto share = [&](double u) {
+      std::vector<double> weights;
+      for (std::size_t i = 0; i < 3; ++i) weights.push_back(from[i] / 1.3 * (1 - u) + to[i] / 2.1 * u);
+      return weights;
+    };
+    for (int k = 0; k < 144; ++k) many = sync.advanced(many, seconds / 144, share(k / 144.0), share((k + 1) / 144.0));
+    CHECK(near(sync.advanced(0.37, seconds, from, to), many, 1e-11));
+  }
 }
 
 TEST_CASE("clips without markers are played in shares of their loops") {

@@ -166,6 +166,25 @@ TEST_CASE("a gliding parameter that is set changes no rate at once, wherever in 
   }
 }
 
+TEST_CASE("clips in phase have exact rates where one runs a thousand times as fast as another") {
+  std::vector<Clip> clips = {moving("walk", 4, LoopMode::repeat)};
+  clips[0].events = {{0, 0, "left", ""}, {0.6, 0.6, "right", ""}};
+  Clip slow{.name = "run", .duration = 2000, .loop = {.mode = LoopMode::repeat}};
+  slow.tracks.push_back({"root", "position",
+                         keyed_curve<Vec3>({{.time = 0, .value = {0, 1, 0}, .ease = Ease::linear()},
+                                            {.time = 2000, .value = {0, 2, 0}, .ease = Ease::linear()}})});
+  slow.events = {{0, 0, "left", ""}, {1200, 1200, "right", ""}};
+  clips.push_back(slow);
+  GraphDescription set = by_speed("*", 0.02);
+  set.inputs = {{0.1001, "speed", 4}, {0.3003, "speed", 1}};
+  GraphPlayer player(graph_of(set, std::make_shared<const std::vector<Clip>>(clips)));
+  double most = 0;
+  for (int i = 0; i < 700; ++i)
+    if (const double time = 0.05 + 0.00071 * i; std::abs(time - 0.1001) > 1e-5 && std::abs(time - 0.3003) > 1e-5)
+      most = std::max(most, rate_error(player, time, 1e-6));
+  CHECK(most < 1e-8);
+}
+
 TEST_CASE("clips in phase step together: their markers fall at the same times, each told once") {
   GraphPlayer player(graph_of(by_speed("*"), stepping_clips()));
   player.set("speed", 2.5);

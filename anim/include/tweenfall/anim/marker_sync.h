@@ -64,8 +64,9 @@ class MarkerSync {
   /// because the advance of the clips, averaged by the weights, is the number of seconds.
   [[nodiscard]] double advanced(double phase, double seconds, std::span<const double> weights) const noexcept;
 
-  /// The same while the shares of the weights change linearly: the error is below 1e-7 of phase per second of fading
-  /// with steps of 1/30 s, and less for shorter steps.
+  /// The same while the shares of the weights change linearly from those of `from` to those of `to`: within 1e-11 of a
+  /// phase, in one step as in many, for clips whose speeds are up to a thousand times apart. Takes time for each marker
+  /// passed, up to those of one period.
   [[nodiscard]] double advanced(double phase, double seconds, std::span<const double> from,
                                 std::span<const double> to) const noexcept;
 
@@ -86,8 +87,10 @@ class MarkerSync {
   struct Place;
   [[nodiscard]] static Place place(const Stretch& stretch, double part) noexcept;
   [[nodiscard]] static Place place(const Track& track, double phase) noexcept;
-  template <class Share>
-  [[nodiscard]] double advanced_by(double phase, double seconds, const Share& share) const noexcept;
+  /// The part that a clip has of the weights, whose sum is `sum`.
+  [[nodiscard]] double share(std::span<const double> weights, double sum, std::size_t clip) const noexcept;
+  /// How far a clip comes in one period, s.
+  [[nodiscard]] double in_period(std::size_t clip) const noexcept;
 
   std::vector<Track> clips_;
   double period_ = 1;
