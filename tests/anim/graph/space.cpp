@@ -185,6 +185,16 @@ TEST_CASE("clips in phase have exact rates where one runs a thousand times as fa
   CHECK(most < 1e-8);
 }
 
+TEST_CASE("clips in phase that are too short to be seen take no time to be counted") {
+  std::vector<Clip> clips = {moving("walk", 4, LoopMode::repeat), moving("run", 5, LoopMode::repeat)};
+  for (Clip& clip : clips) clip.duration = 1e-12;
+  GraphDescription set = by_speed("*", 0.02);
+  set.inputs = {{0.1001, "speed", 4}, {0.3003, "speed", 1}};
+  GraphPlayer player(graph_of(set, std::make_shared<const std::vector<Clip>>(clips)));
+  for (const double time : {0.2, 0.4})
+    for (const Motion& motion : pose_at(player, time)) CHECK(std::isfinite(motion.pose.position.x()));
+}
+
 TEST_CASE("clips in phase step together: their markers fall at the same times, each told once") {
   GraphPlayer player(graph_of(by_speed("*"), stepping_clips()));
   player.set("speed", 2.5);
