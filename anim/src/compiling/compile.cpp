@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
 #include <optional>
@@ -25,6 +26,9 @@ constexpr Kind kinds[] = {Kind::translation, Kind::rotation, Kind::scale};
 
 /// Relative resolution of a float.
 constexpr double float_resolution = 1.2e-7;
+
+/// The longest stretch of a formula that is looked at as one at first, s. It is looked at in seven places.
+constexpr double longest_look = 1.0 / 16;
 
 /// How far off a number of a kind may be if it alone moves the points of the figure by `share`.
 double room_for(const Reach& reach, std::size_t joint, Kind kind, double share) {
@@ -120,82 +124,154 @@ void add_climbs(CompiledClip& clip, const ExactPose& exact) {
   }
 }
 
-std::shared_ptr<CompiledClip> assembled(const ExactPose& exact, const std::vector<FittedChannel>& fits,
-                                        const std::vector<Survey>& surveys, const Reach& reach, double share,
-                                        bool smallest) {
-  auto clip = std::make_shared<CompiledClip>();
-  clip->joints = static_cast<std::uint32_t>(exact.nodes().size());
-  clip->duration = exact.duration();
-  clip->loop = exact.clip().loop;
-  std::map<std::vector<double>, std::uint32_t> timelines;
-  std::vector<std::vector<Way>> choices;
-  choices.reserve(fits.size());
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    const Fitted& fit = fits[i].fit;
-    std::vector<Way>& of_channel =
-        choices.emplace_back(surveys[i].ways(steps_for(fit, rooms(reach, fits[i].group, fit.kind, share)), smallest));
-    if (of_channel.front().form.is_constant()) continue;
-    const auto [found, added] = timelines.try_emplace(fit.knots, static_cast<std::uint32_t>(clip->timelines.size()));
-    if (added) {
-      clip->timelines.emplace_back().knots = fit.knots;
+/// The clips that fitted channels make for different steps. Few of them differ: what was made once is kept.
+class Assembly {
+ public:
+  struct Made {
+    std::vector<Form> forms;  ///< of all channels: they tell the clip
+    std::shared_ptr<CompiledClip> clip;
+    std::optional<LargestError> at_some, at_all;
+  };
+
+  Assembly(const ExactPose& exact, const std::vector<FittedChannel>& fits, const Reach& reach,
+           const CrowdSettings& settings)
+      : exact_(exact), fits_(fits), reach_(reach), settings_(settings), surveys_(surveys_of(fits)) {
+    std::map<std::vector<double>, std::uint32_t> numbers;
+    for (const FittedChannel& channel : fits)
+      timelines_.push_back(
+          numbers.try_emplace(channel.fit.knots, static_cast<std::uint32_t>(numbers.size())).first->second);
+  }
+
+  /// @param share  how far a number may move a point, m
+  [[nodiscard]] Made& made(double share) {
+    constexpr std::uint32_t unused = Form::no_timeline;
+    std::vector<std::uint32_t> numbers(fits_.size(), unused);  // of the timelines that some channel needs
+    std::vector<std::size_t> owners;
+    std::vector<std::vector<Way>> choices;
+    choices.reserve(fits_.size());
+    for (std::size_t i = 0; i < fits_.size(); ++i) {
+      const FittedChannel& channel = fits_[i];
+      const Steps steps = steps_for(channel.fit, rooms(reach_, channel.group, channel.fit.kind, share));
+      std::vector<Way>& of_channel = choices.emplace_back(surveys_[i].ways(steps, settings_.smallest));
+      if (of_channel.front().form.is_constant()) continue;
+      std::uint32_t& number = numbers[timelines_[i]];
+      if (number == unused) {
+        number = static_cast<std::uint32_t>(owners.size());
+        owners.push_back(i);
+      }
+      for (Way& way : of_channel) way.form.timeline = number;
+    }
+    std::vector<Form> forms = chosen(choices);
+    for (Made& made : made_)
+      if (made.forms == forms) return made;
+    std::shared_ptr<CompiledClip> clip = filled(forms, owners);
+    return made_.emplace_back(Made{.forms = std::move(forms), .clip = std::move(clip), .at_some = {}, .at_all = {}});
+  }
+
+ private:
+  /// @param owners  a channel of each timeline
+  [[nodiscard]] std::shared_ptr<CompiledClip> filled(const std::vector<Form>& forms,
+                                                     const std::vector<std::size_t>& owners) const {
+    auto clip = std::make_shared<CompiledClip>();
+    clip->joints = static_cast<std::uint32_t>(exact_.nodes().size());
+    clip->duration = exact_.duration();
+    clip->loop = exact_.clip().loop;
+    for (const std::size_t owner : owners) {
+      clip->timelines.emplace_back().knots = fits_[owner].fit.knots;
       clip->timelines.back().index();
     }
-    for (Way& way : of_channel) way.form.timeline = found->second;
+    std::map<Form, std::vector<std::size_t>> runs;
+    for (std::size_t i = 0; i < forms.size(); ++i) runs[forms[i]].push_back(i);
+    for (const auto& [form, members] : runs) add_run(*clip, fits_, form, members);
+    lay_out(*clip);
+    add_climbs(*clip, exact_);
+    return clip;
   }
-  std::map<Form, std::vector<std::size_t>> runs;
-  const std::vector<Form> forms = chosen(choices);
-  for (std::size_t i = 0; i < forms.size(); ++i) runs[forms[i]].push_back(i);
-  for (const auto& [form, members] : runs) add_run(*clip, fits, form, members);
-  lay_out(*clip);
-  add_climbs(*clip, exact);
-  return clip;
-}
 
-/// Every time at which something changes, and some between.
-std::vector<double> measured_times(const std::vector<FittedChannel>& fits, double duration) {
+  const ExactPose& exact_;
+  const std::vector<FittedChannel>& fits_;
+  const Reach& reach_;
+  const CrowdSettings& settings_;
+  std::vector<Survey> surveys_;
+  std::vector<std::uint32_t> timelines_;  // by channel: the same number for the same knots
+  std::deque<Made> made_;
+};
+
+/// Every knot of the channels, in order.
+std::vector<double> knots_of(const std::vector<FittedChannel>& fits, double duration) {
   std::vector<double> knots{0.0};
   if (duration > 0) knots.push_back(duration);
   for (const FittedChannel& channel : fits)
     knots.insert(knots.end(), channel.fit.knots.begin(), channel.fit.knots.end());
   std::ranges::sort(knots);
   knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
-  std::vector<double> times;
-  times.reserve(4 * knots.size());
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    times.push_back(knots[i]);
-    for (const double u : {0.27639320225002, 0.50931847710375, 0.77185319624461})
-      times.push_back(knots[i] + u * (knots[i + 1] - knots[i]));
-  }
-  times.push_back(knots.back());
-  return times;
+  return knots;
 }
 
-/// Finds the coarsest steps that keep the tolerance. @param best_error written: the smallest error measured
+/// Every time at which something changes, from both sides, and some between.
+std::vector<Instant> measured_instants(const std::vector<double>& knots) {
+  std::vector<Instant> instants;
+  instants.reserve(5 * knots.size());
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    if (i > 0) instants.push_back({knots[i], Side::in});
+    instants.push_back({knots[i], Side::out});
+    if (i + 1 == knots.size()) break;
+    for (const double u : {0.27639320225002, 0.50931847710375, 0.77185319624461})
+      instants.push_back({knots[i] + u * (knots[i + 1] - knots[i]), Side::out});
+  }
+  return instants;
+}
+
+/// So many instants are measured while steps are searched for; what was found is measured at all of them.
+constexpr std::size_t most_searched = 4096;
+
+/// At most `most` of some instants, evenly chosen.
+std::vector<Instant> some_of(const std::vector<Instant>& instants, std::size_t most) {
+  if (instants.size() <= most) return instants;
+  std::vector<Instant> some;
+  some.reserve(most);
+  for (std::size_t i = 0; i < most; ++i) some.push_back(instants[i * instants.size() / most]);
+  return some;
+}
+
+/// Finds the coarsest steps that keep the tolerance. @param best_error written: the smallest of those measured
 std::shared_ptr<CompiledClip> coarsest(const ExactPose& exact, const std::vector<FittedChannel>& fits,
-                                       const Reach& reach, const CrowdSettings& settings, double& best_error) {
+                                       const Reach& reach, const CrowdSettings& settings, LargestError& best_error) {
   // The error at times between the measured ones is hardly larger.
   const double allowed = 0.97 * settings.tolerance;
-  const std::vector<double> times = measured_times(fits, exact.duration());
-  const std::vector<Survey> surveys = surveys_of(fits);
-  std::shared_ptr<CompiledClip> best;
+  const std::vector<Instant> all = measured_instants(knots_of(fits, exact.duration())),
+                             some = some_of(all, most_searched);
+  Assembly assembly(exact, fits, reach, settings);
+  Assembly::Made* best = nullptr;
   double holds = 0, fails = 0, share = 0.4 * settings.tolerance;
   for (int attempt = 0; attempt < 12; ++attempt) {
-    const std::shared_ptr<CompiledClip> clip = assembled(exact, fits, surveys, reach, share, settings.smallest);
-    clip->error = largest_error(exact, *clip, settings.arm, times);
-    best_error = std::min(best_error, clip->error);
-    if (clip->error <= allowed) {
-      best = clip;
+    Assembly::Made& made = assembly.made(share);
+    if (!made.at_some) made.at_some = largest_error(exact, *made.clip, settings.arm, some);
+    const double error = made.at_some->distance;
+    if (error <= allowed) {
+      best = &made;
       holds = share;
-      if (clip->timelines.empty()) break;
-      share = fails > 0 ? std::sqrt(share * fails)
-                        : share * std::clamp(0.9 * allowed / std::max(clip->error, 1e-300), 1.2, 4.0);
+      if (made.clip->timelines.empty()) break;
+      share =
+          fails > 0 ? std::sqrt(share * fails) : share * std::clamp(0.9 * allowed / std::max(error, 1e-300), 1.2, 4.0);
     } else {
       fails = share;
-      share = holds > 0 ? std::sqrt(share * holds) : share * std::clamp(0.9 * allowed / clip->error, 0.1, 0.8);
+      share = holds > 0 ? std::sqrt(share * holds) : share * std::clamp(0.9 * allowed / error, 0.1, 0.8);
     }
     if (holds > 0 && fails > 0 && fails < 1.05 * holds) break;
   }
-  return best;
+  // What holds at some instants may not at all of them.
+  if (best) share = holds;
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    Assembly::Made& made = assembly.made(share);
+    if (some.size() == all.size()) made.at_all = made.at_some;
+    if (!made.at_all) made.at_all = largest_error(exact, *made.clip, settings.arm, all);
+    if (made.at_all->distance < best_error.distance) best_error = *made.at_all;
+    made.clip->error = made.at_all->distance;
+    if (made.clip->error <= allowed) return made.clip;
+    share *= std::clamp(0.9 * allowed / made.clip->error, 0.1, 0.8);
+  }
+  return nullptr;
 }
 
 void check(const Clip& clip, const CrowdSettings& settings) {
@@ -219,13 +295,19 @@ CrowdClip compile(const Clip& clip, const Hierarchy& nodes, const CrowdSettings&
   check(clip, settings);
   const ExactPose exact(clip, nodes);
   const Reach reach = reach_of(exact, settings.arm);
-  const CurveKnots knots(clip, nodes);
-  double error = std::numeric_limits<double>::infinity();
-  for (double share = 0.3 * settings.tolerance; share > 1e-3 * settings.tolerance; share *= 0.2)
+  LargestError error{std::numeric_limits<double>::infinity()};
+  const auto is_fine = [&] { return error.distance < 100 * float_resolution * reach.extent; };
+  double look = longest_look;
+  for (double share = 0.3 * settings.tolerance; share > 1e-3 * settings.tolerance; share *= 0.2) {
+    const CurveKnots knots(clip, nodes, look);
     if (const auto best = coarsest(exact, fitted_channels(exact, knots, reach, share), reach, settings, error))
       return CrowdClip(best);
+    if (!is_fine()) look /= 8;  // something went unseen
+  }
   throw std::invalid_argument("clip \"" + clip.name + "\" cannot be kept within " + number_text(settings.tolerance) +
-                              " m in float; the nearest is " + number_text(error) + " m");
+                              " m" + (is_fine() ? " in float" : "") + "; the nearest is " +
+                              number_text(error.distance) + " m, at " + number_text(error.time) + " s" +
+                              (is_fine() ? "" : ", where it changes faster than can be found"));
 }
 
 }  // namespace tweenfall

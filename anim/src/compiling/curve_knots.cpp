@@ -1,3 +1,5 @@
+#include <tweenfall/anim/component.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,8 +12,6 @@ namespace {
 
 /// Repeats of a curve beyond this number are found by sampling, as for formulas.
 constexpr std::size_t most_knots = 200000;
-/// The longest stretch of a formula that is sampled as one, s.
-constexpr double longest_look = 1.0 / 16;
 
 void add_inside(double time, double duration, std::vector<double>& out) {
   if (time > 0 && time < duration && out.size() < most_knots) out.push_back(time);
@@ -38,36 +38,46 @@ void add_repeats(const Curve<T>& curve, Outside rule, bool after, double duratio
 }
 
 template <class T>
-void add_knots(const Curve<T>& curve, double duration, std::vector<double>& out) {
+void add_knots(const Curve<T>& curve, double duration, double look, std::vector<double>& out) {
   for (const double knot : curve.knots()) add_inside(knot, duration, out);
   if (std::isfinite(curve.start())) add_repeats(curve, curve.before(), false, duration, out);
   if (std::isfinite(curve.end())) add_repeats(curve, curve.after(), true, duration, out);
   const bool constant = curve.knots().empty() && curve.start() == curve.end();
   if (constant || !curve.spans().empty()) return;
-  const auto looks = static_cast<std::size_t>(std::min(std::ceil(duration / longest_look), 1e5));
+  const auto looks = static_cast<std::size_t>(std::min(std::ceil(duration / look), 1e5));
   for (std::size_t i = 1; i < looks; ++i)
     add_inside(duration * static_cast<double>(i) / static_cast<double>(looks), duration, out);
 }
 
-std::optional<Kind> kind_of(Property property) {
-  if (property == Property::position) return Kind::translation;
-  if (property == Property::rotation) return Kind::rotation;
-  if (property == Property::scale) return Kind::scale;
-  return std::nullopt;
+std::optional<Kind> kind_of(const Track& track) {
+  const std::optional<Component> component = component_named(track.property);
+  switch (component ? component->property : property_named(track.property)) {
+    case Property::position:
+      return Kind::translation;
+    case Property::rotation:
+      return Kind::rotation;
+    case Property::scale:
+      return Kind::scale;
+    default:
+      return std::nullopt;
+  }
 }
 
 }  // namespace
 
-CurveKnots::CurveKnots(const Clip& clip, const Hierarchy& nodes) {
+CurveKnots::CurveKnots(const Clip& clip, const Hierarchy& nodes, double longest_look) : look(longest_look) {
   for (auto& kind : of) kind.resize(nodes.size());
   for (const Track& track : clip.tracks) {
-    const std::optional<Kind> kind = kind_of(property_named(track.property));
+    const std::optional<Kind> kind = kind_of(track);
     const std::optional<std::size_t> node = nodes.find(track.node);
     if (!kind || !node) continue;
     std::vector<double>& out = of[static_cast<std::size_t>(*kind)][*node];
-    out.clear();  // the last track of a property is the one that counts
-    if (const auto* vectors = std::get_if<Curve<Vec3>>(&track.curve)) add_knots(*vectors, clip.duration, out);
-    if (const auto* rotations = std::get_if<Curve<Quat>>(&track.curve)) add_knots(*rotations, clip.duration, out);
+    // The last track of a whole property is the one that counts.
+    if (!component_named(track.property)) out.clear();
+    const auto add = [&](const auto& curve) { add_knots(curve, clip.duration, longest_look, out); };
+    if (const auto* vectors = std::get_if<Curve<Vec3>>(&track.curve)) add(*vectors);
+    if (const auto* rotations = std::get_if<Curve<Quat>>(&track.curve)) add(*rotations);
+    if (const auto* numbers = std::get_if<Curve<double>>(&track.curve)) add(*numbers);
   }
 }
 

@@ -1,7 +1,10 @@
 #include "compiling/fit.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +22,8 @@ constexpr double shortest = 1e-14;  // s
 constexpr double shortest_bent = 1e-6;  // s
 /// What a fit may take: so many knots for each of the curves', and some more. It bounds the time of compiling.
 constexpr std::size_t most_for_each = 16, most_more = 20000;
+/// After so many jumps within each other's pieces, pieces are halved: that leads to an end soon.
+constexpr int deepest = 100;
 
 /// The values of a channel at one time, and how fast they change: up to four of each lane.
 struct Look {
@@ -88,14 +93,29 @@ class Fitter {
     Look last = look(knots.back(), Side::out);
     align(last, before_);
     if (!given_up_ && !joined(last, 0)) add(knots.back(), last);
-    if (given_up_) fit_.knots.clear();
+    if (given_up_) {
+      reached_ = fit_.knots.empty() ? 0 : fit_.knots.back();
+      if (fit_.knots.size() > 1) find_thickest();
+      fit_.knots.clear();
+    }
     return std::move(fit_);
   }
+
+  /// How far the last fit came that was given up, s.
+  [[nodiscard]] double reached() const { return reached_; }
+  /// Where half of the knots of the last fit that was given up were, and the lane that changed the most there.
+  struct Thickest {
+    double from = 0, to = 0;
+    std::size_t lane = 0;
+  };
+  [[nodiscard]] const Thickest& thickest() const { return thickest_; }
 
  private:
   void piece(double from, const Look& left, double to, const Look& right) {
     if (given_up_) return;
     if (near(from, left, to, right)) return keep(from, left, to, right);
+    if (const std::optional<double> jump = depth_ < deepest ? jump_in(from, left, to, right) : std::nullopt)
+      return part_at(*jump, from, left, to, right);
     const bool over = to - from <= shortest + 1e-15 * std::abs(to);
     if (over || (fit_.cubic && to - from <= shortest_bent)) {
       Look first = left, last = right;
@@ -112,11 +132,97 @@ class Fitter {
     piece(middle, leaving, to, end);
   }
 
+  /// Where a change that no rate explains takes place at once, or a good part of it: the first instant after it. Of
+  /// many jumps in one piece none is told: halves of it come first.
+  [[nodiscard]] std::optional<double> jump_in(double from, const Look& left, double to, const Look& right) const {
+    if (!is_sudden(left, right, to - from)) return std::nullopt;
+    Look before = left, after = right;
+    const double enough = std::max(1.0, 0.25 * change(left, right));
+    double last = from, first = to;
+    for (;;) {
+      const double middle = last + 0.5 * (first - last);
+      if (!(middle > last && middle < first)) break;
+      Look there = look(middle, Side::out);
+      align(there, before);
+      if (change(before, there) >= change(there, after)) {
+        first = middle;
+        after = there;
+      } else {
+        last = middle;
+        before = there;
+      }
+    }
+    return change(before, after) > enough ? std::optional(first) : std::nullopt;
+  }
+
+  /// What arrives at a jump is what was there just before it.
+  void part_at(double jump, double from, const Look& left, double to, const Look& right) {
+    Look arriving = look(std::nextafter(jump, from), Side::out), leaving = look(jump, Side::out);
+    align(arriving, left);
+    align(leaving, left);
+    if (jump == to) return piece(from, left, to, arriving);
+    ++depth_;
+    piece(from, left, jump, arriving);
+    Look end = right;
+    align(end, leaving);
+    piece(jump, leaving, to, end);
+    --depth_;
+  }
+
+  /// Whether more has changed than four times what the rates at both ends would have done, and than is tolerated.
+  [[nodiscard]] bool is_sudden(const Look& left, const Look& right, double length) const {
+    for (std::size_t lane = 0; lane < lane_count; ++lane)
+      for (std::size_t c = 0; c < components(kind_); ++c) {
+        const double rate = std::max(std::abs(left.rate[c][lane]), std::abs(right.rate[c][lane]));
+        if (change(left, right, lane, c) > 4 * rate * length + tolerance_[lane]) return true;
+      }
+    return false;
+  }
+
+  /// The largest change, in tolerances.
+  [[nodiscard]] double change(const Look& left, const Look& right) const {
+    double most = 0;
+    for (std::size_t lane = 0; lane < lane_count; ++lane)
+      for (std::size_t c = 0; c < components(kind_); ++c)
+        most = std::max(most, change(left, right, lane, c) / tolerance_[lane]);
+    return most;
+  }
+
+  /// Of one number. After many turns within a piece, signs of rotations tell nothing: the nearer one counts.
+  [[nodiscard]] double change(const Look& left, const Look& right, std::size_t lane, std::size_t c) const {
+    const double before = left.value[c][lane], after = right.value[c][lane];
+    if (kind_ != Kind::rotation) return std::abs(after - before);
+    double dot = 0;
+    for (std::size_t k = 0; k < 4; ++k) dot += left.value[k][lane] * right.value[k][lane];
+    return std::abs(dot < 0 ? after + before : after - before);
+  }
+
   void keep(double from, const Look& left, double to, const Look& right) {
     if (fit_.knots.empty() || !joined(left, std::max(to - from, from - last_begin_))) add(from, left);
     add(to, right);
     last_begin_ = from;
     before_ = right;
+  }
+
+  void find_thickest() {
+    const std::size_t half = fit_.knots.size() / 2;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i + half < fit_.knots.size(); ++i)
+      if (fit_.knots[i + half] - fit_.knots[i] < fit_.knots[first + half] - fit_.knots[first]) first = i;
+    thickest_ = {.from = fit_.knots[first], .to = fit_.knots[first + half]};
+    double most = 0;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      double sum = 0;
+      for (std::size_t i = first; i < first + half; ++i)
+        for (std::size_t c = 0; c < components(kind_); ++c) {
+          const std::size_t place = (i * fit_.slots() + c) * lane_count + lane;
+          sum += std::abs(fit_.values[place + fit_.slots() * lane_count] - fit_.values[place]) / tolerance_[lane];
+        }
+      if (sum > most) {
+        most = sum;
+        thickest_.lane = lane;
+      }
+    }
   }
 
   /// Makes a line of the piece between two looks.
@@ -194,9 +300,30 @@ class Fitter {
   Fitted fit_;
   std::size_t most_ = 0;
   bool given_up_ = false;
+  int depth_ = 0;
   Look before_;
-  double last_begin_ = 0;
+  double last_begin_ = 0, reached_ = 0;
+  Thickest thickest_;
 };
+
+std::string too_fast(const ExactPose& exact, const CurveKnots& knots, std::size_t group, Kind kind,
+                     const Fitter::Thickest& there, std::size_t most) {
+  const std::size_t node = std::min(group * lane_count + there.lane, exact.nodes().size() - 1);
+  const auto brief = [](double time) { return number_text(std::round(time * 1e6) / 1e6); };
+  const std::string from = brief(there.from), to = brief(there.to);
+  const std::string property = kind == Kind::rotation ? "rotation" : kind == Kind::scale ? "scale" : "position";
+  std::vector<double> keys = knots.of[static_cast<std::size_t>(kind)][node];
+  std::erase_if(keys, [&, margin = there.to - there.from](double key) {
+    return key < there.from - margin || key > there.to + margin;
+  });
+  std::ranges::sort(keys);
+  const bool close =
+      std::ranges::adjacent_find(keys, [&](double a, double b) { return b - a < 0.1 * knots.look; }) != keys.end();
+  return "clip \"" + exact.clip().name + "\" cannot be compiled for a crowd: " +
+         (from == to ? "near " + from + " s" : "from " + from + " s to " + to + " s") + " the " + property + " of \"" +
+         exact.nodes()[node].name + "\" changes so fast that " + std::to_string(most) + " knots are too few for it" +
+         (close ? "; smooth slopes are as steep as keys are close" : "");
+}
 
 }  // namespace
 
@@ -223,22 +350,21 @@ Fitted fitted(const ExactPose& exact, const CurveKnots& knots, std::size_t group
   // A knot of a cubic takes twice the room; but where its neighbors are far apart it is the lines that take more.
   // Whether few lines do is known soon. Else the cubics come first, and lines are tried as far as they would take less.
   const std::size_t most = most_more + most_for_each * times.size();
-  Fitted lines = fitter.fit(times, false, 4 * times.size());
+  const std::size_t soon = 4 * times.size();
+  Fitted lines = fitter.fit(times, false, soon);
   if (!lines.knots.empty()) {
     Fitted cubics = fitter.fit(times, true, lines.knots.size() / 2);
     return cubics.knots.empty() ? lines : cubics;
   }
+  const double part = fitter.reached() / times.back();
   Fitted cubics = fitter.fit(times, true, most);
-  lines = fitter.fit(times, false, cubics.knots.empty() ? most : std::min(most, 2 * cubics.knots.size() - 1));
+  const std::size_t most_lines = cubics.knots.empty() ? most : std::min(most, 2 * cubics.knots.size() - 1);
+  // Where lines would take far more if they went on as they began, they are not tried again.
+  if (static_cast<double>(soon) < 4 * part * static_cast<double>(most_lines))
+    lines = fitter.fit(times, false, most_lines);
   if (!lines.knots.empty()) return lines;
   if (!cubics.knots.empty()) return cubics;
-  throw std::invalid_argument("clip \"" + exact.clip().name + "\" cannot be compiled for a crowd: the " +
-                              std::string(kind == Kind::rotation ? "rotations"
-                                          : kind == Kind::scale  ? "scales"
-                                                                 : "positions") +
-                              " of the joints from \"" + exact.nodes()[group * lane_count].name +
-                              "\" on change so fast that " + std::to_string(most) +
-                              " knots are too few for them; smooth slopes are as steep as keys are close");
+  throw std::invalid_argument(too_fast(exact, knots, group, kind, fitter.thickest(), most));
 }
 
 }  // namespace tweenfall::crowd

@@ -10,10 +10,13 @@
 
 namespace tweenfall::crowd {
 
-/// The times within a clip at which the curves of each node have knots, by kind.
+/// The times within a clip at which the curves of each node have knots, by kind; those of a formula are far enough from
+/// each other for it to be looked at in between.
 struct CurveKnots {
-  CurveKnots(const Clip& clip, const Hierarchy& nodes);
+  /// @param longest_look  the longest stretch of a formula without a knot, s
+  CurveKnots(const Clip& clip, const Hierarchy& nodes, double longest_look);
 
+  double look;                                         ///< that stretch, s
   std::array<std::vector<std::vector<double>>, 3> of;  ///< for each kind and node; s, in no order
 };
 

@@ -21,6 +21,7 @@ void look_at(const ExactPose& exact, double arm, std::span<const WorldFrame> wor
   const Hierarchy& nodes = exact.nodes();
   for (std::size_t node = 0; node < nodes.size(); ++node) {
     const double tip = arm * longest_column(world[node].linear);
+    reach.extent = std::max(reach.extent, world[node].origin.cwiseAbs().maxCoeff());
     // All joints above it reach that far.
     for (std::size_t above = node; above != no_node; above = nodes[above].parent) {
       Reach::OfJoint& of = reach.joints[above];
@@ -60,37 +61,79 @@ Reach reach_of(const ExactPose& exact, double arm) {
   return reach;
 }
 
-double largest_error(const ExactPose& exact, const CompiledClip& clip, double arm, std::span<const double> times) {
-  const Hierarchy& nodes = exact.nodes();
-  std::vector<Motion> wanted(nodes.size()), found(nodes.size());
-  std::vector<WorldFrame> wanted_world(nodes.size()), found_world(nodes.size());
-  std::vector<CrowdGroup> pose(crowd_groups(nodes.size()));
-  double largest = 0;
-  for (const double time : times)
-    for (const Side side : {Side::in, Side::out}) {
-      if (time <= 0 && side == Side::in) continue;  // the time before its start does not belong to the clip
-      exact.sample(time, side, wanted);
-      nodes.world_frames(wanted, wanted_world);
-      sample_with(fastest_sample_kernels(), clip, time, side == Side::in, 1, pose.data(), nullptr);
-      for (std::size_t node = 0; node < nodes.size(); ++node) {
-        const CrowdGroup& group = pose[node / CrowdGroup::size];
-        const std::size_t lane = node % CrowdGroup::size;
-        Pose& local = found[node].pose;
-        for (int c = 0; c < 3; ++c) {
-          local.position[c] = group.translation[c][lane];
-          local.scale[c] = group.scale[c][lane];
-        }
-        for (int c = 0; c < 4; ++c) local.rotation.coeffs()[c] = group.rotation[c][lane];
+namespace {
+
+/// Compares the poses of a compiled clip with the exact path.
+class Comparison {
+ public:
+  Comparison(const ExactPose& exact, const CompiledClip& clip, double arm)
+      : exact_(exact),
+        clip_(clip),
+        arm_(arm),
+        motions_(exact.nodes().size()),
+        wanted_(exact.nodes().size()),
+        found_(exact.nodes().size()),
+        pose_(crowd_groups(exact.nodes().size())) {}
+
+  /// The largest distance of a point, m.
+  /// @param enough  what is nearer than this need not be told exactly, m
+  [[nodiscard]] double distance(double time, Side side, double enough) {
+    place(time, side);
+    const double as_told = distance_from(time, side);
+    if (side == Side::out || as_told < enough) return as_told;
+    // Formulas jump from one number to the next: then what arrives is what was there just before.
+    return std::min(as_told, distance_from(std::nextafter(time, 0.0), Side::out));
+  }
+
+ private:
+  void place(double time, Side side) {
+    const Hierarchy& nodes = exact_.nodes();
+    sample_with(fastest_sample_kernels(), clip_, time, side == Side::in, 1, pose_.data(), nullptr);
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+      const CrowdGroup& group = pose_[node / CrowdGroup::size];
+      const std::size_t lane = node % CrowdGroup::size;
+      Pose& local = motions_[node].pose;
+      for (int c = 0; c < 3; ++c) {
+        local.position[c] = group.translation[c][lane];
+        local.scale[c] = group.scale[c][lane];
       }
-      nodes.world_frames(found, found_world);
-      for (std::size_t node = 0; node < nodes.size(); ++node)
-        for (int axis = 0; axis < 3; ++axis) {
-          const Vec3 tip = arm * Vec3::Unit(axis);
-          const double error = (wanted_world[node].point(tip) - found_world[node].point(tip)).norm();
-          // NaN counts as an infinite error.
-          largest = error <= largest ? largest : std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
-        }
+      for (int c = 0; c < 4; ++c) local.rotation.coeffs()[c] = group.rotation[c][lane];
     }
+    nodes.world_frames(motions_, found_);
+  }
+
+  [[nodiscard]] double distance_from(double time, Side side) {
+    exact_.sample(time, side, motions_);
+    exact_.nodes().world_frames(motions_, wanted_);
+    double largest = 0;
+    for (std::size_t node = 0; node < wanted_.size(); ++node)
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vec3 tip = arm_ * Vec3::Unit(axis);
+        const double error = (wanted_[node].point(tip) - found_[node].point(tip)).norm();
+        if (std::isnan(error)) return std::numeric_limits<double>::infinity();
+        largest = std::max(largest, error);
+      }
+    return largest;
+  }
+
+  const ExactPose& exact_;
+  const CompiledClip& clip_;
+  double arm_;
+  std::vector<Motion> motions_;
+  std::vector<WorldFrame> wanted_, found_;
+  std::vector<CrowdGroup> pose_;
+};
+
+}  // namespace
+
+LargestError largest_error(const ExactPose& exact, const CompiledClip& clip, double arm,
+                           std::span<const Instant> instants) {
+  Comparison comparison(exact, clip, arm);
+  LargestError largest;
+  for (const Instant& instant : instants) {
+    const double distance = comparison.distance(instant.time, instant.side, largest.distance);
+    if (distance > largest.distance) largest = {distance, instant.time};
+  }
   return largest;
 }
 

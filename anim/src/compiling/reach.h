@@ -18,13 +18,23 @@ struct Reach {
     double largest[3] = {0, 1, 0};  ///< magnitude of a number of each kind
   };
   std::vector<OfJoint> joints;
+  double extent = 0;  ///< of the figure and its way: the farthest that a joint comes from the origin along an axis, m
 };
 
 [[nodiscard]] Reach reach_of(const ExactPose& exact, double arm);
 
-/// The largest distance of a point of the figure from its place on the exact path, m; at the given times, from both
-/// sides of each.
-[[nodiscard]] double largest_error(const ExactPose& exact, const CompiledClip& clip, double arm,
-                                   std::span<const double> times);
+struct LargestError {
+  double distance = 0;  ///< of a point of the figure from its place on the exact path, m
+  double time = 0;      ///< s
+};
+
+struct Instant {
+  double time;  ///< s
+  Side side;
+};
+
+/// The largest error at some instants.
+[[nodiscard]] LargestError largest_error(const ExactPose& exact, const CompiledClip& clip, double arm,
+                                         std::span<const Instant> instants);
 
 }  // namespace tweenfall::crowd
