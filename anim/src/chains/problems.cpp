@@ -27,10 +27,19 @@ std::string listed(std::span<const Problem> problems) {
   return text;
 }
 
+std::string listed(std::string text, std::span<const Problem> problems) {
+  for (const Problem& problem : problems) text += "\n  " + problem.text;
+  return text;
+}
+
 }  // namespace
 
 Unfit::Unfit(std::vector<Problem> problems)
     : std::invalid_argument(listed(problems)),
+      problems_(std::make_shared<const std::vector<Problem>>(std::move(problems))) {}
+
+Unfit::Unfit(const std::string& heading, std::vector<Problem> problems)
+    : std::invalid_argument(listed(heading, problems)),
       problems_(std::make_shared<const std::vector<Problem>>(std::move(problems))) {}
 
 void Problems::add(const std::string& problem) {

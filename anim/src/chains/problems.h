@@ -25,6 +25,8 @@ struct Problem {
 class Unfit : public std::invalid_argument {
  public:
   explicit Unfit(std::vector<Problem> problems);
+  /// As one text below a heading, indented.
+  Unfit(const std::string& heading, std::vector<Problem> problems);
   [[nodiscard]] std::span<const Problem> problems() const noexcept { return *problems_; }
 
  private:

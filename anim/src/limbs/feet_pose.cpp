@@ -77,10 +77,10 @@ std::unique_ptr<Operation> bound(const FeetPose& described, Binder& binder) {
   if (described.feet.size() > most_feet_placed)
     binder.fault({"feet", "legs"}, "at most " + std::to_string(most_feet_placed) + " feet are placed");
   Number floor = binder.number(described.floor, {"feet", "floor"});
-  if (!known || !problems.empty() || described.feet.size() > most_feet_placed) return nullptr;
+  if (!known || described.feet.size() > most_feet_placed) return nullptr;
   std::optional<FootPlacement> placement;
   binder.attempt({"feet"}, [&] { placement.emplace(binder.nodes(), settings); });
-  if (!placement || !changed.whole) return nullptr;
+  if (!placement || !problems.empty() || !changed.whole) return nullptr;
   binder.moves(pelvis);
   for (const FootPlacement::Foot& foot : placement->feet())
     for (const std::size_t node : {foot.leg.start(), foot.leg.middle(), foot.leg.end()}) binder.moves(node);

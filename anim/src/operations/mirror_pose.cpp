@@ -1,6 +1,7 @@
 #include <tweenfall/anim/blend.h>
 #include <tweenfall/anim/mirror.h>
 
+#include "chains/problems.h"
 #include "operations/account.h"
 #include "operations/changing.h"
 #include "operations/figure.h"
@@ -54,7 +55,14 @@ std::unique_ptr<Operation> bound(const MirrorPose& described, Binder& binder) {
                  "the names of these joints do not tell sides; give \"pairs\", such as "
                  "[\"*.L\", \"*.R\"]");
   std::optional<Mirror> mirror;
-  binder.attempt({"mirror"}, [&] { mirror.emplace(figure.nodes(), pairs, described.normal); });
+  binder.attempt({"mirror"}, [&] {
+    try {
+      mirror.emplace(figure.nodes(), pairs, described.normal);
+    } catch (const chains::Unfit& unfit) {
+      if (!described.pairs.empty()) throw;
+      throw std::invalid_argument(unfit.what());  // nobody wrote the pairs
+    }
+  });
   if (!mirror || pairs.empty() || !changed.whole) return nullptr;
   for (const std::size_t node : figure.joints()) binder.moves(node);
   auto operation = std::make_unique<Mirrored>(std::move(changed), std::move(figure), *std::move(mirror));

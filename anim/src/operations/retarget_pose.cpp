@@ -87,7 +87,7 @@ std::unique_ptr<Operation> bound(const RetargetPose& described, Binder& binder) 
     if (!told.emplace(node, &each).second) binder.fault(place, "\"" + each.node + "\" has two stances");
   }
   std::optional<Retarget> map;
-  binder.attempt({"retarget", "pairs"}, [&] {
+  binder.attempt({"retarget"}, [&] {
     map.emplace(source.nodes(), target.nodes(), described.pairs,
                 RetargetSettings{.scale = described.scale,
                                  .up = described.up,

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <utility>
+#include <vector>
 
+#include "chains/problems.h"
 #include "pose/name_patterns.h"
 #include "pose/rest.h"
 
@@ -26,40 +28,47 @@ Quat reflected(const Quat& q, const Vec3& normal) noexcept {
   return {q.w(), v[0], v[1], v[2]};
 }
 
-// The partner of each joint; adds problems of the pairs.
-std::vector<std::size_t> partners_of(const Hierarchy& nodes, std::span<const MirrorPair> pairs, std::string& problems) {
-  std::vector<std::size_t> partners(nodes.size(), no_node);
-  const auto meet = [&](std::size_t a, std::size_t b) {
-    if (partners[a] == no_node) partners[a] = b;
-    if (partners[a] == b) return;
-    problems += "\n  \"" + nodes[a].name + "\" has two partners, \"" + nodes[partners[a]].name + "\" and \"" +
-                nodes[b].name + "\"";
-  };
-  for (const MirrorPair& pair : pairs) {
-    if (stars_in(pair.left) != stars_in(pair.right)) {
-      problems += "\n  \"" + pair.left + "\" and \"" + pair.right + "\" must have the same number of *";
-      continue;
-    }
+/// The partner of each joint, and the pair that says so: `no_node` where none does.
+struct Partners {
+  std::vector<std::size_t> of, by_pair;
+
+  Partners(const Hierarchy& nodes, std::span<const MirrorPair> pairs, std::vector<chains::Problem>& problems)
+      : of(nodes.size(), no_node), by_pair(nodes.size(), no_node) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) add(nodes, pairs[i], i, problems);
+    for (std::size_t i = 0; i < of.size(); ++i)
+      if (of[i] == no_node) of[i] = i;
+  }
+
+ private:
+  void add(const Hierarchy& nodes, const MirrorPair& pair, std::size_t number, std::vector<chains::Problem>& problems) {
+    const auto fault = [&](std::string text) {
+      problems.push_back({{"pairs", std::to_string(number)}, std::move(text)});
+    };
+    if (stars_in(pair.left) != stars_in(pair.right))
+      return fault("\"" + pair.left + "\" and \"" + pair.right + "\" must have the same number of *");
     bool any = false;
     const auto meet_all = [&](const std::string& from, const std::string& to) {
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         const std::optional<std::string> name = renamed(nodes[i].name, from, to);
         if (!name) continue;
         any = true;
-        if (const auto other = nodes.find(*name))
-          meet(i, *other);
-        else
-          problems += "\n  \"" + nodes[i].name + "\" has no partner, for there is no \"" + *name + "\"";
+        const auto other = nodes.find(*name);
+        if (!other) {
+          fault("\"" + nodes[i].name + "\" has no partner, for there is no \"" + *name + "\"");
+        } else if (of[i] == no_node) {
+          of[i] = *other;
+          by_pair[i] = number;
+        } else if (of[i] != *other) {
+          fault("\"" + nodes[i].name + "\" has two partners, \"" + nodes[of[i]].name + "\" and \"" +
+                nodes[*other].name + "\"");
+        }
       }
     };
     meet_all(pair.left, pair.right);
     meet_all(pair.right, pair.left);
-    if (!any) problems += "\n  no joint matches \"" + pair.left + "\" or \"" + pair.right + "\"";
+    if (!any) fault("no joint matches \"" + pair.left + "\" or \"" + pair.right + "\"");
   }
-  for (std::size_t i = 0; i < partners.size(); ++i)
-    if (partners[i] == no_node) partners[i] = i;
-  return partners;
-}
+};
 
 using AxisOrder = std::array<int, 3>;
 
@@ -115,30 +124,36 @@ std::vector<MirrorPair> usual_sides(const Hierarchy& nodes) {
 Mirror::Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const Vec3& normal,
                std::span<const Pose> stance)
     : normal_(normal) {
-  std::string problems;
+  std::vector<chains::Problem> problems;
   if (!stance.empty() && stance.size() != nodes.size())
-    problems += "\n  its stance needs a pose for each of the " + std::to_string(nodes.size()) + " joints; it has " +
-                std::to_string(stance.size());
+    problems.push_back({{"stance"},
+                        "its stance needs a pose for each of the " + std::to_string(nodes.size()) + " joints; it has " +
+                            std::to_string(stance.size())});
   const double largest = normal.cwiseAbs().maxCoeff();
   if (!(largest > 0) || !std::isfinite(normal.sum()))
-    problems += "\n  the normal of its plane must have a length, and be finite";
+    problems.push_back({{"normal"}, "the normal of its plane must have a length, and be finite"});
   else
     normal_ = Vec3(normal / largest) / std::sqrt(Vec3(normal / largest).squaredNorm());
 
   const std::size_t sound = problems.size();
-  const std::vector<std::size_t> partners = pose::partners_of(nodes, pairs, problems);
+  const pose::Partners paired(nodes, pairs, problems);
+  const std::vector<std::size_t>& partners = paired.of;
   const bool paired_well = problems.size() == sound;
   for (std::size_t i = 0; i < nodes.size() && paired_well; ++i) {
     const std::size_t parent = nodes[i].parent, other = nodes[partners[i]].parent;
-    const bool paired = parent == no_node || other == no_node ? parent == other : partners[parent] == other;
-    if (paired || partners[i] < i) continue;
+    const bool fits = parent == no_node || other == no_node ? parent == other : partners[parent] == other;
+    if (fits || partners[i] < i) continue;
     const auto name = [&](std::size_t node) {
       return node == no_node ? std::string("no joint") : "\"" + nodes[node].name + "\"";
     };
-    problems += "\n  " + name(i) + " is below " + name(parent) + " and its partner " + name(partners[i]) + " below " +
-                name(other) + ", which are not partners";
+    // A joint that no pair names is between the sides, where its parents should be.
+    const std::size_t pair =
+        paired.by_pair[i] != no_node || parent == no_node ? paired.by_pair[i] : paired.by_pair[parent];
+    problems.push_back({pair == no_node ? chains::Member() : chains::Member{"pairs", std::to_string(pair)},
+                        name(i) + " is below " + name(parent) + " and its partner " + name(partners[i]) + " below " +
+                            name(other) + ", which are not partners"});
   }
-  if (!problems.empty()) throw std::invalid_argument("a mirror does not fit its joints:" + problems);
+  if (!problems.empty()) throw chains::Unfit("a mirror does not fit its joints:", std::move(problems));
 
   // In the figure's space, a joint is turned from rest by D = R B^-1, where R is its rotation and B that at rest. It
   // must get the mirror image m(D') of its partner's turn. With the same for the parents, its local rotation is (Bp^-1

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <utility>
+#include <vector>
 
+#include "chains/problems.h"
 #include "pose/joint_names.h"
 #include "pose/name_patterns.h"
 #include "pose/rest.h"
@@ -14,30 +16,39 @@ namespace tweenfall {
 namespace pose {
 namespace {
 
-/// The source joint of each target joint, and whether it moves.
+/// The source joint of each target joint, the pair that says so, and whether it moves.
 struct RetargetMap {
-  std::vector<std::size_t> source_of, target_of;
+  std::vector<std::size_t> source_of, target_of, by_pair;
   std::vector<char> moves;
-  std::string problems;
+  std::vector<chains::Problem> problems;
 
   RetargetMap(const Hierarchy& source, const Hierarchy& target, std::span<const RetargetPair> pairs)
-      : source_of(target.size(), no_node), target_of(source.size(), no_node), moves(target.size()) {
-    if (pairs.empty()) problems += "\n  no joints are mapped";
+      : source_of(target.size(), no_node),
+        target_of(source.size(), no_node),
+        by_pair(target.size()),
+        moves(target.size()) {
+    if (pairs.empty()) problems.push_back({{"pairs"}, "no joints are mapped"});
     for (const RetargetPair& pair : pairs) {
       if (stars_in(pair.source) != stars_in(pair.target))
-        problems += "\n  \"" + pair.source + "\" and \"" + pair.target + "\" must have the same number of *";
+        fault("\"" + pair.source + "\" and \"" + pair.target + "\" must have the same number of *");
       else if (stars_in(pair.source) == 0)
         join_named(source, target, pair);
       else
         join_matching(source, target, pair);
+      ++number_;
     }
   }
 
+  void fault_at(std::size_t pair, std::string text) {
+    problems.push_back({{"pairs", std::to_string(pair)}, std::move(text)});
+  }
+
  private:
+  void fault(std::string text) { fault_at(number_, std::move(text)); }
   void join_named(const Hierarchy& source, const Hierarchy& target, const RetargetPair& pair) {
     const auto from = source.find(pair.source), to = target.find(pair.target);
-    if (!from) problems += "\n  in the source " + no_joint_named(source, pair.source);
-    if (!to) problems += "\n  in the target " + no_joint_named(target, pair.target);
+    if (!from) fault("in the source " + no_joint_named(source, pair.source));
+    if (!to) fault("in the target " + no_joint_named(target, pair.target));
     if (from && to) join(source, target, *from, *to, pair.moves);
   }
   void join_matching(const Hierarchy& source, const Hierarchy& target, const RetargetPair& pair) {
@@ -52,16 +63,15 @@ struct RetargetMap {
       join(source, target, i, *to, pair.moves);
     }
     if (!matched)
-      problems += "\n  in the source " + no_joint_named(source, pair.source);
+      fault("in the source " + no_joint_named(source, pair.source));
     else if (!joined)
-      problems += "\n  in the target no joint is named by \"" + pair.target + "\" as those of the source by \"" +
-                  pair.source + "\"";
+      fault("in the target no joint is named by \"" + pair.target + "\" as those of the source by \"" + pair.source +
+            "\"");
   }
   void join(const Hierarchy& source, const Hierarchy& target, std::size_t from, std::size_t to, bool moving) {
     const auto twice = [&](const std::string& name, const std::string& first, const std::string& second) {
-      problems += "\n  \"" + name + "\" is mapped twice, ";
-      problems +=
-          first == second ? "both times to \"" + first + "\"" : "to \"" + first + "\" and to \"" + second + "\"";
+      fault("\"" + name + "\" is mapped twice, " +
+            (first == second ? "both times to \"" + first + "\"" : "to \"" + first + "\" and to \"" + second + "\""));
     };
     if (source_of[to] != no_node) {
       twice(target[to].name, source[source_of[to]].name, source[from].name);
@@ -70,9 +80,12 @@ struct RetargetMap {
     } else {
       source_of[to] = from;
       target_of[from] = to;
+      by_pair[to] = number_;
       moves[to] = moving ? 1 : 0;
     }
   }
+
+  std::size_t number_ = 0;  // of the pair that is joined
 };
 
 }  // namespace
@@ -85,17 +98,18 @@ class Retarget::Maker {
       : source_(source), target_(target), settings_(settings), map_(source, target, pairs) {}
 
   void make(Retarget& result) {
-    std::string& problems = map_.problems;
+    std::vector<chains::Problem>& problems = map_.problems;
     const auto stance = [&](std::span<const Pose> poses, const Hierarchy& nodes, const char* name) {
       if (poses.empty() || poses.size() == nodes.size()) return poses;
-      problems += std::string("\n  the stance of the ") + name + " needs a pose for each of its " +
-                  std::to_string(nodes.size()) + " joints; it has " + std::to_string(poses.size());
+      problems.push_back({{},
+                          std::string("the stance of the ") + name + " needs a pose for each of its " +
+                              std::to_string(nodes.size()) + " joints; it has " + std::to_string(poses.size())});
       return poses.first(0);
     };
     source_stance_ = pose::figure_poses(source_, stance(settings_.source_stance, source_, "source"));
     target_stance_ = pose::figure_poses(target_, stance(settings_.target_stance, target_, "target"));
     if (!(settings_.turn.squaredNorm() > 0) || !std::isfinite(settings_.turn.squaredNorm()))
-      problems += "\n  the turn between the figures must be a rotation";
+      problems.push_back({{"turn"}, "the turn between the figures must be a rotation"});
     else
       turn_ = normalized(settings_.turn);
 
@@ -103,7 +117,8 @@ class Retarget::Maker {
     parents_.assign(target_.size(), no_node);
     for (std::size_t i = 0; i < target_.size(); ++i) place(result, i);
     if (problems.empty()) result.scale_ = scale();
-    if (!problems.empty()) throw std::invalid_argument("poses cannot be transferred to the other skeleton:" + problems);
+    if (!problems.empty())
+      throw chains::Unfit("poses cannot be transferred to the other skeleton:", std::move(problems));
     for (std::size_t i = 0; i < target_.size(); ++i) result.joints_[i].way *= result.scale_;
   }
 
@@ -131,8 +146,9 @@ class Retarget::Maker {
     std::size_t node = joint.source;
     for (; node != source_top && node != no_node; node = source_[node].parent) chain.push_back(node);
     if (node != source_top) {
-      map_.problems += "\n  \"" + target_[i].name + "\" is below \"" + target_[top].name + "\", but its source \"" +
-                       source_[joint.source].name + "\" is not below \"" + source_[source_top].name + "\"";
+      map_.fault_at(map_.by_pair[i], "\"" + target_[i].name + "\" is below \"" + target_[top].name +
+                                         "\", but its source \"" + source_[joint.source].name + "\" is not below \"" +
+                                         source_[source_top].name + "\"");
       return;
     }
     std::ranges::reverse(chain);
@@ -167,7 +183,8 @@ class Retarget::Maker {
   double scale() {
     if (settings_.scale > 0 && std::isfinite(settings_.scale)) return settings_.scale;
     if (settings_.scale != 0) {
-      map_.problems += "\n  the scale of displacements must be above 0; it is " + number_text(settings_.scale);
+      map_.problems.push_back(
+          {{"scale"}, "the scale of displacements must be above 0; it is " + number_text(settings_.scale)});
       return 1;
     }
     const double length = std::sqrt(settings_.up.squaredNorm());
@@ -182,9 +199,10 @@ class Retarget::Maker {
       target_height = target_up.dot(standing_[i].position);
     }
     if (height > 0 && target_height > 0 && std::isfinite(target_height / height)) return target_height / height;
-    map_.problems += "\n  the hips \"" + target_[hips].name + "\" stand " + number_text(target_height) +
-                     " above the ground, and those of the source " + number_text(height) +
-                     "; unless both are above it, a scale must be given";
+    map_.problems.push_back({{},
+                             "the hips \"" + target_[hips].name + "\" stand " + number_text(target_height) +
+                                 " above the ground, and those of the source " + number_text(height) +
+                                 "; unless both are above it, a scale must be given"});
     return 1;
   }
 

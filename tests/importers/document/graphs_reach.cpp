@@ -71,6 +71,56 @@ TEST_CASE("faults of chains, legs and masks are told at the member that is wrong
   CHECK(tells(masked("{\"joints\": \"x\"}"), at("layers/0/mask")));
 }
 
+TEST_CASE("faults of pairs are told at the pair") {
+  const auto at = [](const std::string& place) { return " (at /graphs/g/poses/p/" + place + ")"; };
+  const auto mirrored = [](const std::string& pairs) { return "{\"mirror\": {\"pairs\": [" + pairs + "]}}"; };
+  CHECK(tells(mirrored(R"(["b", "c"], ["*.L", "*.R"])"), R"(no joint matches "*.L" or "*.R")" + at("mirror/pairs/1")));
+  CHECK(tells(mirrored(R"(["b", "c*"], ["a", "d"])"), at("mirror/pairs/0")));
+  CHECK(tells(mirrored(R"(["a", "d"], ["a", "b"])"), "\"a\" has two partners, \"d\" and \"b\"" + at("mirror/pairs/1")));
+  CHECK(tells(mirrored(R"(["a", "d"], ["c", "b"])"), "which are not partners" + at("mirror/pairs/1")));
+  CHECK(tells(mirrored(R"(["a", "d"])").insert(12, "\"normal\": [0, 0, 0], "), at("mirror/normal")));
+  const auto mapped = [](const std::string& pairs, const std::string& more = "") {
+    return "{\"retarget\": {\"source\": \"a\", \"target\": \"d\", " + more + "\"pairs\": [" + pairs + "]}}";
+  };
+  CHECK(tells(mapped(R"(["a", "d"], ["x", "d"])"), "no joint is named \"x\"" + at("retarget/pairs/1")));
+  CHECK(tells(mapped(R"(["a", "d"], {"source": "b", "target": "y"})"), at("retarget/pairs/1")));
+  CHECK(tells(mapped(R"(["a", "d"], ["b", "d"])"), at("retarget/pairs/1")));
+  CHECK(tells(mapped(R"(["b*", "d"])"), at("retarget/pairs/0")));
+  CHECK(tells(mapped(R"(["a", "d"])"), "a scale must be given" + at("retarget")));
+}
+
+TEST_CASE("in one pose all faults are told at once, but not what only follows from another") {
+  const auto standing = [](const std::string& members) {
+    return faults_of(
+        R"({"tweenfall": 1, "nodes": {"p": {}, "a": {"parent": "p", "position": [0, 2, 0]},
+      "b": {"parent": "a", "position": [0, -1, 0.1]}, "c": {"parent": "b", "position": [0, -1, 0]},
+      "hill": {"body": {"static": true, "shape": {"height_field": {"spacing": 1, "heights": [[0, 0], [0, 1]]}}}}},
+      "graphs": {"g": {"poses": {"p": {"feet": {)" +
+            members + "}}}}}}",
+        "g.json", {});
+  };
+  const auto both = [&](const std::string& members, const std::string& first, const std::string& second) {
+    const std::string told = standing(members);
+    CAPTURE(told);
+    CHECK(told.find("feet/" + first + ")") != std::string::npos);
+    CHECK(told.find("feet/" + second + ")") != std::string::npos);
+  };
+  const std::string legs = R"(, "legs": [{"start": "a", "middle": "b", "end": "c"}])";
+  CHECK(standing(R"("ground": "hill", "pelvis": "p")" + legs).empty());
+  both(R"("ground": "a", "pelvis": "p", "legs": [{"start": "a", "middle": "b", "end": "x"}])", "ground", "legs/0/end");
+  both(R"("ground": "a", "pelvis": "p", "legs": [{"start": "b", "middle": "a", "end": "c"}])", "ground",
+       "legs/0/middle");
+  both(R"("ground": "nowhere", "pelvis": "y")" + legs, "ground", "pelvis");
+  both(R"("ground": "hill", "tilt": "steep", "pelvis": "c")" + legs, "tilt", "legs/0/start");
+  both(R"("ground": "hill", "pelvis": 3, "legs": [{"start": "a", "middle": "b", "end": "x"}])", "pelvis", "legs/0/end");
+  both(
+      R"("ground": "hill", "pelvis": "p", "weight": {"parameter": "w"}, "legs": [{"start": "a", "middle": "x", "end": 1}])",
+      "weight", "legs/0/middle");
+  // A pelvis that was not read is not one that is missing.
+  const std::string told = standing(R"("ground": "hill", "pelvis": 3)" + legs);
+  CHECK(told.find("error:") == told.rfind("error:"));
+}
+
 TEST_CASE("operations of a document mean what the same operations mean in C++") {
   const Document document = Document::read(data_folder() / "documents/good/graph_reach.json");
   const GraphDescription& graph = document.stage().graphs.at(0);

@@ -178,10 +178,13 @@ class Told {
   [[nodiscard]] bool leads_to(const GraphFault& fault, const json::Value& at) const {
     if (places_.empty()) return false;
     if (is_spoiled("parameters") || is_spoiled("poses")) return true;
-    // In a pose, of any fault in that pose; elsewhere, of a fault in any pose, since only poses without faults exist.
+    // In a pose, of a fault in that pose; elsewhere, of a fault in any pose, since only poses without faults exist.
     const bool in_pose = fault.place.size() > 1 && fault.place[0] == "poses";
     const json::Value poses = graph_.find("poses");
-    if (in_pose) return holds_any(poses.find(fault.place[1]));
+    if (in_pose) {
+      const json::Value pose = poses.find(fault.place[1]);
+      return holds_any(at) || (!(tells_of_none(fault) && names_stranger(at, pose)) && holds_consequential(pose));
+    }
     const bool sets = !fault.place.empty() && fault.place[0] == "inputs" && at.items().size() > 2;
     return holds_any(poses) && !names_nothing(sets ? at.items()[1] : at);
   }
@@ -193,6 +196,53 @@ class Told {
     const std::string_view name = value.text();
     return !graph_.find("parameters").find(name) && !graph_.find("poses").find(name);
   }
+  // Whether it says that something of a name is not there.
+  [[nodiscard]] static bool tells_of_none(const GraphFault& fault) {
+    return fault.message.find("there is no ") != std::string::npos;
+  }
+  // Whether it is a name, well read, of what would be outside the pose: a node, a clip, a parameter.
+  [[nodiscard]] bool names_stranger(const json::Value& value, const json::Value& pose) const {
+    const json::Value name = value.is(Kind::object) ? value.find("parameter") : value;
+    return names_nothing(name) && !has_member(pose, name.text());
+  }
+  [[nodiscard]] static bool has_member(const json::Value& value, std::string_view name) {
+    if (value.find(name)) return true;
+    for (const json::Member& member : value.members())
+      if (has_member(member.value, name)) return true;
+    for (const json::Value& item : value.items())
+      if (has_member(item, name)) return true;
+    return false;
+  }
+
+  // Whether there is a fault in a pose that may make something else in it wrong.
+  [[nodiscard]] bool holds_consequential(const json::Value& pose) const {
+    const auto first = std::ranges::lower_bound(places_, pose.offset());
+    return std::any_of(first, std::ranges::lower_bound(places_, pose.offset() + pose.length()),
+                       [&](std::size_t place) { return !is_harmless(place, pose); });
+  }
+  // Whether a place is in a member that has a sound value in place of a faulty one, on which no other member depends.
+  [[nodiscard]] static bool is_harmless(std::size_t place, json::Value value) {
+    static constexpr std::string_view harmless[] = {"ground", "weight", "floor", "lowest", "highest", "evenness",
+                                                    "tilt",   "sweeps", "leaps", "method", "limits",  "swing",
+                                                    "twist",  "share",  "limit", "ease",   "eye",     "softness",
+                                                    "fade",   "settle", "moves"};
+    const auto holds_place = [&](const json::Value& part) {
+      return place >= part.offset() && place < part.offset() + part.length();
+    };
+    for (;;) {
+      json::Value next;
+      for (const json::Member& member : value.members())
+        if (holds_place(member.value)) {
+          if (std::ranges::count(harmless, member.name) > 0) return true;
+          next = member.value;
+        }
+      for (const json::Value& item : value.items())
+        if (holds_place(item)) next = item;
+      if (!next) return false;
+      value = next;
+    }
+  }
+
   [[nodiscard]] bool is_spoiled(const char* part) const { return graph_.find(part).is(Kind::faulty); }
   [[nodiscard]] bool holds_any(const json::Value& value) const {
     if (!value) return false;
