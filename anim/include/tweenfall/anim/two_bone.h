@@ -55,7 +55,9 @@ class TwoBoneChain {
 struct TwoBoneGoal {
   Sample<Vec3> target;  ///< place in the world, m, and its velocity
   /// World direction toward which the middle goes, away from the line to the target; any length. If absent, or along
-  /// that line, the middle stays on its side in the pose.
+  /// that line, the middle stays on its side in the pose, and within 1.1 degrees of the line, to either end, it goes
+  /// over to the pole's side. As the middle goes all around while a pole does, somewhere it must jump: this is where a
+  /// pole that near to the line is exactly opposite the side in the pose.
   std::optional<Sample<Vec3>> pole = std::nullopt;
   /// Share of the chain's length over which it slows down before it is fully stretched: 0 to 0.5. With 0 every target
   /// within reach is reached, but the bend moves infinitely fast at the limit of reach.
