@@ -16,25 +16,50 @@ const T& arrival(const Key<T>& key) {
   return key.value_in ? *key.value_in : key.value;
 }
 
+/// What keys ask for, read in one pass: they are large, and most of the time is spent waiting for them.
 template <class T>
-SlopeRequest request_of(std::span<const Key<T>> keys, Ends ends) {
+struct Gathered {
+  SlopeRequest request;
+  std::vector<double> times;
+  std::vector<T> values;
+  bool bare = true;  ///< whether all spans are cubics by eases alone, without tangents or arriving values
+};
+
+template <class T>
+Gathered<T> gathered(std::span<const Key<T>> keys, Ends ends) {
   constexpr std::size_t n = spans::dimensions<T>;
-  SlopeRequest request{n, {}, {}, ends, {}, {}};
+  Gathered<T> all{{n, {}, {}, ends, {}, {}}, {}, {}};
+  SlopeRequest& request = all.request;
   const std::size_t count = keys.size() - 1;
   request.eases.reserve(keys.size());
+  all.times.reserve(keys.size());
+  all.values.reserve(keys.size());
   request.durations.reserve(count);
   request.secants.reserve(count * n);
   request.span_eases.reserve(count);
-  for (const Key<T>& key : keys) request.eases.push_back(&key.ease);
-  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
-    const double duration = keys[i + 1].time - keys[i].time;
+  const Ease* ease = nullptr;  // the first of those alike that follow each other
+  SpanPlan plan{};
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Key<T>& key = keys[i];
+    request.eases.push_back(&key.ease);
+    all.times.push_back(key.time);
+    all.values.push_back(key.value);
+    all.bare = all.bare && !key.in && !key.out && !key.value_in;
+    if (i + 1 == keys.size()) break;
+    const Key<T>& next = keys[i + 1];
+    const double duration = next.time - key.time;
     request.durations.push_back(duration);
     for (int c = 0; c < spans::dimensions<T>; ++c)
-      request.secants.push_back((spans::component(arrival(keys[i + 1]), c) - spans::component(keys[i].value, c)) /
-                                duration);
-    request.span_eases.push_back(plan_span(keys[i].ease, keys[i].out || keys[i + 1].in).slopes);
+      request.secants.push_back((spans::component(arrival(next), c) - spans::component(key.value, c)) / duration);
+    if (!ease || &key.ease.form() != &ease->form()) {
+      ease = &key.ease;
+      plan = plan_span(*ease, false);
+    }
+    const bool stated = key.out || next.in;
+    request.span_eases.push_back(stated ? plan_span(key.ease, true).slopes : plan.slopes);
+    all.bare = all.bare && plan.kind == SpanKind::cubic;
   }
-  return request;
+  return all;
 }
 
 template <class T>
@@ -106,31 +131,37 @@ std::vector<double> shared_rates(std::span<const Key<T>> keys, const KeyTangents
   return rates;
 }
 
+// The same where the keys state nothing but eases.
+std::vector<double> shared_rates(const Slopes& slopes, std::size_t dimensions) {
+  const std::size_t last = slopes.leaving.size() - dimensions;
+  for (std::size_t i = 0; i < last; ++i)
+    if (!(slopes.leaving[i + dimensions] == slopes.arriving[i])) return {};
+  std::vector<double> rates;
+  rates.reserve(last + 2 * dimensions);
+  rates.insert(rates.end(), slopes.leaving.begin(), slopes.leaving.end());
+  rates.insert(rates.end(), slopes.arriving.begin() + static_cast<std::ptrdiff_t>(last), slopes.arriving.end());
+  return rates;
+}
+
 // The curve, if all its spans are cubics through its keys.
 template <class T>
-std::optional<Curve<T>> cubics_through_keys(std::span<const Key<T>> keys, const KeyTangents<T>& tangents) {
-  const std::vector<double> rates = shared_rates(keys, tangents);
+std::optional<Curve<T>> cubics_through_keys(std::span<const Key<T>> keys, const Gathered<T>& all, const Slopes& slopes,
+                                            const KeyTangents<T>& tangents) {
+  const std::vector<double> rates =
+      all.bare ? shared_rates(slopes, all.request.dimensions) : shared_rates(keys, tangents);
   if (rates.empty()) return std::nullopt;
-  std::vector<double> times;
-  std::vector<T> values;
-  times.reserve(keys.size());
-  values.reserve(keys.size());
-  for (const Key<T>& key : keys) {
-    times.push_back(key.time);
-    values.push_back(key.value);
-  }
-  return CurveAccess::cubics_through<T>(times, values, rates, {{}, values.front(), tangents.before()},
-                                        {{}, values.back(), tangents.after()});
+  return CurveAccess::cubics_through<T>(all.times, all.values, rates, {{}, all.values.front(), tangents.before()},
+                                        {{}, all.values.back(), tangents.after()});
 }
 
 // Numbers and vectors, in their own units.
 template <class T>
 Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
   if (keys.size() == 1) return CurveAccess::one_key(keys[0].value, keys[0].time);
-  const SlopeRequest request = request_of(keys, options.ends);
-  const Slopes slopes = choose_slopes(request);
-  const KeyTangents<T> tangents(keys, request, slopes);
-  if (std::optional<Curve<T>> curve = cubics_through_keys(keys, tangents)) return *std::move(curve);
+  const Gathered<T> all = gathered(keys, options.ends);
+  const Slopes slopes = choose_slopes(all.request);
+  const KeyTangents<T> tangents(keys, all.request, slopes);
+  if (std::optional<Curve<T>> curve = cubics_through_keys(keys, all, slopes, tangents)) return *std::move(curve);
   std::vector<Span<T>> spans;
   spans.reserve(keys.size() - 1);
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {

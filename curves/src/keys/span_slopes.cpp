@@ -59,8 +59,10 @@ keying::Slopes keying::choose_slopes(const keying::SlopeRequest& given) {
     const Ease* ease = request.span_eases[first];
     std::size_t last = first + 1;
     if (ease) {
-      while (last < spans && request.span_eases[last] && request.span_eases[last]->slope_rule() == ease->slope_rule())
-        ++last;
+      const auto is_alike = [ease](const Ease* other) {
+        return other == ease || (other && other->slope_rule() == ease->slope_rule());
+      };
+      while (last < spans && is_alike(request.span_eases[last])) ++last;
       const SlopeProblem problem{spans,
                                  first,
                                  last,

@@ -249,8 +249,8 @@ TEST_CASE("an operation that asks for what is not there is refused with its plac
   map.pairs[1].source = "spin";
   map.pairs[2].target = "other/haed";
   CHECK(faults_of(map) ==
-        "/poses/changed/retarget/pairs: in the source no joint is named \"spin\"; did you mean \"spine\"?\n"
-        "/poses/changed/retarget/pairs: in the target no joint is named \"other/haed\"; did you mean "
+        "/poses/changed/retarget/pairs/1: in the source no joint is named \"spin\"; did you mean \"spine\"?\n"
+        "/poses/changed/retarget/pairs/2: in the target no joint is named \"other/haed\"; did you mean "
         "\"other/head\"?\n");
   map = taken_over(1.);
   map.target = "spine";
