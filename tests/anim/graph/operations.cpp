@@ -257,7 +257,7 @@ TEST_CASE("an operation that asks for what is not there is refused with its plac
   CHECK(faults_of(map).find("/poses/changed/retarget/target: ") == 0);
   MirrorPose mirror = mirrored(1.);
   mirror.pairs = {{"*.l", "*.r"}};
-  CHECK(faults_of(mirror).find("/poses/changed/mirror: ") == 0);
+  CHECK(faults_of(mirror).find("/poses/changed/mirror/pairs/0: ") == 0);
   mirror.pairs.clear();
   CHECK(faults_of(mirror).empty());  // by their usual names
   mirror.figure = "spine";
