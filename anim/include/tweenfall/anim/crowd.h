@@ -78,8 +78,9 @@ class CrowdClip {
 /// Formulas are looked at every 10 ms, and where they change as often as it takes; what one does and undoes in less may
 /// go unseen. Where one jumps between two numbers, what arrives at the later is what was at the earlier.
 /// @throws std::invalid_argument for a clip that does not fit the nodes or has no end, settings that are out of their
-///         ranges, a tolerance that float cannot keep: it names how near it comes and where, and for curves so fast that
-///         eight joints would take more than 16 knots for each of theirs and 20,000 more: it names the joint and when.
+///         ranges, a tolerance that float cannot keep: it names how near it comes and where, and for curves so fast
+///         that eight joints would take more than 16 knots for each of theirs and 20,000 more: it names the joint and
+///         when.
 [[nodiscard]] CrowdClip compile(const Clip& clip, const Hierarchy& nodes, const CrowdSettings& settings = {});
 
 }  // namespace tweenfall
