@@ -137,6 +137,7 @@ class Assembly {
            const CrowdSettings& settings)
       : exact_(exact), fits_(fits), reach_(reach), settings_(settings), surveys_(surveys_of(fits)) {
     std::map<std::vector<double>, std::uint32_t> numbers;
+    timelines_.reserve(fits.size());
     for (const FittedChannel& channel : fits)
       timelines_.push_back(
           numbers.try_emplace(channel.fit.knots, static_cast<std::uint32_t>(numbers.size())).first->second);

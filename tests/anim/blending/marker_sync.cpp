@@ -163,6 +163,7 @@ TEST_CASE("a fade between clips with markers is what a fine integration of the r
     double phase = 0.37, time = 0;
     const auto rate = [&](double at, double t) {
       std::vector<Sample<double>> weights;
+      weights.reserve(3);
       for (std::size_t i = 0; i < 3; ++i) {
         const double a = from[i] / 1.3, b = to[i] / 2.1;
         weights.push_back({a + (b - a) * t / seconds, (b - a) / seconds, 0});
@@ -197,6 +198,7 @@ TEST_CASE("a fade between clips with markers is what a fine integration of the r
     double many = 0.37;
     const auto share = [&](double u) {
       std::vector<double> weights;
+      weights.reserve(3);
       for (std::size_t i = 0; i < 3; ++i) weights.push_back(from[i] / 1.3 * (1 - u) + to[i] / 2.1 * u);
       return weights;
     };
