@@ -125,12 +125,12 @@ template <Is<Makeup> T, class Visit>
 void each_field(T& makeup, const Visit& visit) {
   auto& [shape, mass, inverse_inertia, radius, roundness, linear_damping, angular_damping, friction, restitution,
          rolling_friction, spinning_friction, friction_combine, restitution_combine, sensor, weighed, spherical,
-         turned] = makeup;
+         slender, turned] = makeup;
   visit(linear_damping, angular_damping, mass.mass, friction, restitution, rolling_friction, spinning_friction,
         friction_combine, restitution_combine, sensor, shape);
   visit.rarely(weighed);
   if (weighed) visit(mass.center, mass.inertia);  // otherwise they follow from the shape
-  follows_from_others(inverse_inertia, radius, roundness, spherical, turned);
+  follows_from_others(inverse_inertia, radius, roundness, spherical, slender, turned);
 }
 
 template <Is<Extra> T, class Visit>
@@ -141,7 +141,7 @@ void each_field(T& extra, const Visit& visit) {
 
 template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [alive, fixed, asleep, placed, has_target, led, saturated, conveys, generation, drive, still_for, center, twist,
+  auto& [alive, fixed, asleep, placed, has_target, led, saturated, squeezed, conveys, generation, drive, still_for, center, twist,
          motion, work, filter, makeup, extra] = body;
   visit(alive, generation);
   if (!alive) return;  // only its index and generation matter
@@ -155,6 +155,7 @@ void each_field(T& body, const Visit& visit) {
   if constexpr (!std::is_const_v<T>) body.set_filter(its);
   visit(makeup, extra);
   visit.rarely(saturated);
+  visit.rarely(squeezed);
   follows_from_others(conveys);
 }
 

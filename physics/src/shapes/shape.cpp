@@ -83,6 +83,12 @@ void validate(const Solid& solid) {
   } else if (const auto* cone = std::get_if<Cone>(&solid)) {
     shapes::require_positive(cone->radius, "radius of a cone");
     shapes::require_positive(cone->half_height, "half height of a cone");
+    // On its side a flatter one rests on one point at a time, and sinks in.
+    constexpr double flattest = 1e-3;
+    if (!(cone->half_height >= flattest * cone->radius))
+      throw std::invalid_argument("half height of a cone must be at least a thousandth of its radius, but is " +
+                                  number_text(cone->half_height) + " of " + number_text(cone->radius) +
+                                  ": use a cylinder");
   } else if (const auto* tapered = std::get_if<TaperedCapsule>(&solid)) {
     shapes::require_two_balls(*tapered);
   } else if (const auto* plane = std::get_if<Plane>(&solid)) {

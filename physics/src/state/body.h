@@ -27,6 +27,7 @@ struct Makeup {
   bool sensor = false;
   bool weighed = false;    ///< its mass properties were given, not those of an even solid
   bool spherical = false;  ///< the same moment about every axis: spin feels no gyroscopic torque
+  bool slender = false;    ///< like a rod: small errors of where it points would change the energy of its spin much
   bool turned = false;     ///< what it rolls with depends on where it is touched; also for a compound
 };
 
@@ -63,6 +64,7 @@ struct Body {
   bool has_target = false;  ///< a target was set since the last step
   bool led = false;         ///< driven, and its target moved
   bool saturated = false;   ///< its drive was at its limit in the last step
+  bool squeezed = false;    ///< in the last step, bodies that are led threw it
   bool conveys = false;     ///< its surface moves
   std::uint32_t generation = 0;
   Drive drive;
@@ -82,6 +84,7 @@ struct Body {
   [[nodiscard]] const Mat3& inverse_inertia() const { return makeup->inverse_inertia; }
   [[nodiscard]] double radius() const { return makeup->radius; }
   [[nodiscard]] bool spherical() const { return makeup->spherical; }
+  [[nodiscard]] bool slender() const { return makeup->slender; }
   /// A ball around its center of mass: no contact without friction can turn it.
   [[nodiscard]] bool round() const {
     return spherical() && std::holds_alternative<Sphere>(shape().solid) && mass().center == shape().offset.position;

@@ -53,6 +53,30 @@ void require_solid(const MassProperties& weighed) {
               ", " + number_text(moments[1]) + " and " + number_text(moments[2]) + " kg m^2");
 }
 
+/// Of a body's principal moments of inertia, the least is taken to be at least this part of the greatest.
+constexpr double least_moment = 1e-4;
+
+/// A needle turns about itself so easily that any touch of its side spins it thousands of times a second, which no step
+/// follows, and which costs next to no energy: its least moment is raised until steps do. That of a rod 1 m long and
+/// less than 8 mm thick is.
+void raise_least_moment(MassProperties& properties) {
+  constexpr double rounding = 1e-6;  // what has been raised stays as it is
+  const PrincipalAxes axes = principal_axes(properties);
+  const double least = least_moment * axes.moments[2];
+  if (axes.moments[0] >= (1 - rounding) * least) return;
+  const Vec3 thin = axes.orientation * Vec3::UnitX();
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) properties.inertia(i, k) += (least - axes.moments[0]) * (thin[i] * thin[k]);
+}
+
+/// Whether small errors of where it points change the energy of its spin much. A long thin rod has one small moment;
+/// the product of all three tells, whatever the axes.
+bool is_slender(const Mat3& inertia) {
+  constexpr double like_a_rod = 0.0025;  // a rod ten times as long as thick
+  const double sum = inertia.trace();
+  return inertia.determinant() < like_a_rod * (sum * sum * sum);
+}
+
 }  // namespace
 
 void require(bool holds, const std::string& what) {
@@ -163,6 +187,8 @@ void give_mass(Makeup& body, bool immovable, const std::optional<double>& given,
       body.mass = *weighed;
       body.weighed = true;
     }
+    raise_least_moment(body.mass);
+    body.slender = is_slender(body.mass.inertia);
     body.inverse_inertia = body.mass.inertia.inverse();
     const double first = body.mass.inertia(0, 0);
     body.spherical = (std::holds_alternative<Sphere>(solid) && !weighed) ||

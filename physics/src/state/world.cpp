@@ -243,6 +243,9 @@ bool World::asleep(BodyId id) const {
 bool World::saturated(BodyId body) const {
   return inside().at(body).saturated;
 }
+bool World::squeezed(BodyId body) const {
+  return inside().at(body).squeezed;
+}
 Vec3 World::reaction(BodyId id) const {
   return inside().at(id).extra.value().reaction;
 }

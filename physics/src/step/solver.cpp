@@ -416,11 +416,13 @@ void Solver::end_sub_step(double h) {
 }
 
 /// Impulses are computed for the inertia at the end of free flight, but the body then turns otherwise. In turns of less
-/// than a radian that is an error of the step; in larger ones it would feed the spin until nothing is finite.
+/// than a radian that is an error of the step; in larger ones, and in any of a rod, it would feed the spin until nothing
+/// is finite.
 void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
   for (SolverBody& entry : bodies_) {
     const Body& body = bodies[entry.index];
-    if (!entry.movable || entry.pulled || body.spherical() || !(entry.angular.norm() * h > 1)) continue;
+    if (!entry.movable || entry.pulled || body.spherical()) continue;
+    if (!body.slender() && !(entry.angular.norm() * h > 1)) continue;
     const double energy = 0.5 * entry.angular.dot(entry.inverse_inertia.inverse() * entry.angular);
     entry.angular = forces::bounded_spin(body.world_inertia(entry.rotation), energy, entry.angular);
   }

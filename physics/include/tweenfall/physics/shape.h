@@ -34,7 +34,7 @@ struct Cylinder {
 /// A cone along the local y axis, its tip up; the origin is midway between tip and base.
 struct Cone {
   double radius = 0.5;       ///< of the base, m; > 0
-  double half_height = 0.5;  ///< half the distance from base to tip, m; > 0
+  double half_height = 0.5;  ///< half the distance from base to tip, m; at least a thousandth of the radius
 };
 /// The convex hull of two balls on the local y axis.
 struct TaperedCapsule {

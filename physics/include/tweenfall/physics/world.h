@@ -170,6 +170,8 @@ class World {
   // State; every call throws std::invalid_argument for a stale handle
   [[nodiscard]] Motion motion(BodyId body) const;  ///< of the node's origin
   [[nodiscard]] Twist twist(BodyId body) const;    ///< at the center of mass, world axes
+  /// Of needles, the least principal moment of inertia is raised to a ten-thousandth of the greatest: what is 1 m long
+  /// and less than 8 mm thick would spin too easily for any step.
   [[nodiscard]] const MassProperties& mass(BodyId body) const;
   [[nodiscard]] const Shape& shape(BodyId body) const;
   [[nodiscard]] Owner owner(BodyId body) const;
@@ -180,6 +182,10 @@ class World {
   [[nodiscard]] bool asleep(BodyId body) const;
   /// Whether, in the last step, the drive of a driven body needed more than its greatest force or torque.
   [[nodiscard]] bool saturated(BodyId body) const;
+  /// Whether, in the last step, keyed bodies squeezed it out between them, or between themselves and fixed ones, more
+  /// than three times as fast as they move. Then it got at most ten times as fast, unless something brought more
+  /// energy.
+  [[nodiscard]] bool squeezed(BodyId body) const;
   [[nodiscard]] Vec3 reaction(
       BodyId body) const;  ///< sum of contact impulses on a keyed or fixed body since it was added, N s
   [[nodiscard]] double kinetic_energy() const;  ///< of all free bodies, J

@@ -72,8 +72,7 @@ class Finder {
     const double speed = state_.world.twist(body.id).linear.norm();
     if (least < thinnest || least < finest * most)
       tell_body(body, "is " + brief_text(least) + " m thin and " + brief_text(most) +
-                          " m long; forces and contacts may throw bodies thinner than 1e-6 m, or than a millionth of "
-                          "its length");
+                          " m long; others sink into what is thinner than 1e-6 m, or than a millionth of its length");
     else if (most > farthest)
       tell_body(body, "is " + brief_text(most) + " m large; up to 1e9 m goes well");
     else if (away > farthest || away > least * finest / 1e-16)
