@@ -141,8 +141,8 @@ void each_field(T& extra, const Visit& visit) {
 
 template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [alive, fixed, asleep, placed, has_target, led, saturated, squeezed, conveys, generation, drive, still_for, center, twist,
-         motion, work, filter, makeup, extra] = body;
+  auto& [alive, fixed, asleep, placed, has_target, led, saturated, squeezed, conveys, generation, drive, still_for,
+         center, twist, motion, work, filter, makeup, extra] = body;
   visit(alive, generation);
   if (!alive) return;  // only its index and generation matter
   visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion);

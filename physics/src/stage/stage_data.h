@@ -121,6 +121,12 @@ struct Strain {
   double since = 0;   ///< s
   bool told = false;  ///< it has lasted too long for a blow, and was reported
 };
+/// A body that was squeezed out between others.
+struct Squeeze {
+  BodyId body;
+  double last = 0;  ///< when it last was, s
+  bool operator==(const Squeeze&) const = default;
+};
 /// A joint that is far open.
 struct Tear {
   std::size_t joint = 0;  ///< index in the stage's list
@@ -219,6 +225,7 @@ struct StageState {
   std::vector<Blow> blows;                         ///< by pair
   std::vector<std::pair<BodyId, BodyId>> passing;  ///< pairs that pass through each other until they are apart
   std::vector<Strain> strained;                    ///< by pair
+  std::vector<Squeeze> squeezed;                   ///< by body, of the last moments
   std::vector<Tear> torn;                          ///< by joint
   bool jumped = true;  ///< some path may have jumped at `time`: keyed bodies are put on it before going on
 

@@ -416,8 +416,8 @@ void Solver::end_sub_step(double h) {
 }
 
 /// Impulses are computed for the inertia at the end of free flight, but the body then turns otherwise. In turns of less
-/// than a radian that is an error of the step; in larger ones, and in any of a rod, it would feed the spin until nothing
-/// is finite.
+/// than a radian that is an error of the step; in larger ones, and in any of a rod, it would feed the spin until
+/// nothing is finite.
 void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
   for (SolverBody& entry : bodies_) {
     const Body& body = bodies[entry.index];

@@ -9,6 +9,7 @@
 #include "contacts/found_manifold.h"
 #include "forces/drive_law.h"
 #include "islands/pinched.h"
+#include "islands/squeezed.h"
 #include "state/world_data.h"
 #include "step/keyed_step.h"
 
@@ -117,7 +118,8 @@ void World::Implementation::begin_watch() {
     }
   }
   const auto watch = [this](std::uint32_t i) {
-    const state::Body& body = bodies[i];
+    state::Body& body = bodies[i];
+    body.squeezed = false;
     starts[i] = {body.center, body.motion.pose.rotation, body.twist, body.led};
     if (body.asleep) sleepers.push_back(i);
     if (body.immovable() && (body.placed || body.has_target)) lingering.push_back(i);
@@ -228,6 +230,11 @@ void World::Implementation::solve_islands(double dt) {
     for (std::size_t i = next.fetch_add(1); i < all.size(); i = next.fetch_add(1)) solve(i, solvers[share], {});
     for (step::Batch& batch : solvers[share].batches) solvers[share].solve(batch, bodies, loads, settings, dt, moved);
   });
+  // Without bodies that may be led there is nothing that squeezes.
+  if (!lingering.empty())
+    for (const islands::IslandContents& island : all)
+      islands::bound_squeezed(island, bodies, loads, settings.push_out_speed, dt,
+                              [this](std::uint32_t i) -> const Twist& { return starts[i].twist; });
   free_islands.begin(bodies.size());
   const auto start_of = [this](std::uint32_t index) -> islands::FreeStart {
     const step::Start& start = starts[index];

@@ -297,3 +297,51 @@ TEST_CASE("a word of a document gives an imported figure bodies and joints, and 
     if (node.body && node.name.starts_with("one/"))
       CHECK(stage.world(stage.node(node.name)).motion.pose.position.y() < 1);
 }
+
+TEST_CASE("of two figures on a stage one is taken back to its walk, and the other lies as if alone") {
+  const std::filesystem::path folder = std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/documents";
+  const auto described = [&](const std::string& rules) {
+    return Document::parse(R"({
+    "tweenfall": 1,
+    "import": {"one": "character.glb", "two": "character.glb"},
+    "nodes": {"floor": {"body": {"shape": {"plane": {"normal": [0, 1, 0]}}, "static": true}},
+              "away": {"position": [8, 0, 0]}, "two/Character": {"parent": "away"}},
+    "play": [{"clip": "one/WalkForward"}, {"clip": "two/WalkForward"}],
+    "world": {"ragdolls": {"one": {"mass": 60}, "two": {"mass": 20}}},
+    "handoff": [)" + rules + "]}",
+                           "figures.json", folder)
+        .stage();
+  };
+  const std::string
+      fall_one = R"({"group": "one", "when": {"at": 0.5}, "to": "free"})",
+      fall_two = R"({"group": "two", "when": {"at": 0.5}, "to": "free"})",
+      rise_one =
+          R"({"group": "one", "when": {"at": 1.5}, "to": "keyed", "path": {"clip": "one/WalkForward"}, "settle": {"quintic": 0.4}})";
+  Stage both(described(fall_one + "," + fall_two + "," + rise_one)), walking(described("")), other(described(fall_two)),
+      loaded(described(fall_one + "," + fall_two + "," + rise_one));
+  both.advance_to(1.7);
+  loaded.load(both.save());
+  for (Stage* each : {&both, &walking, &other, &loaded}) each->advance_to(2.5);
+  CHECK(loaded.state_hash() == both.state_hash());
+  int one = 0, two = 0;
+  for (const NodeDescription& node : both.description().nodes) {
+    if (!node.body || node.name == "floor") continue;
+    CAPTURE(node.name);
+    const Motion now = both.world(both.node(node.name)).motion;
+    if (node.name.starts_with("one/")) {
+      const Motion walk = walking.world(walking.node(node.name)).motion;
+      CHECK((now.pose.position - walk.pose.position).norm() < 1e-9);
+      CHECK((now.twist.linear - walk.twist.linear).norm() < 1e-9);
+      ++one;
+    } else {
+      const Motion alone = other.world(other.node(node.name)).motion;
+      CHECK(now.pose.position == alone.pose.position);
+      CHECK(now.pose.rotation.coeffs() == alone.pose.rotation.coeffs());
+      CHECK(now.pose.position.y() < 1);
+      ++two;
+    }
+  }
+  CHECK(one > 8);
+  CHECK(two == one);
+  CHECK(both.handoffs().size() == static_cast<std::size_t>(3 * one));
+}

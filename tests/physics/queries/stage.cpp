@@ -96,3 +96,56 @@ TEST_CASE("a stage's answers follow what comes and goes, also within a callback"
   CHECK_THROWS_AS((void)distance(stage, stage.node("mark"), stage.node("floor")), std::invalid_argument);
   CHECK_THROWS_AS((void)distance(stage, 999, stage.node("floor")), std::invalid_argument);
 }
+
+TEST_CASE("a stage's bodies are asked in the size of their nodes, awake and asleep, and answer where they lie") {
+  const auto at = [](const Vec3& place, const Vec3& scale) { return Pose{.position = place, .scale = scale}; };
+  const Compound dumbbell({Shape{Box{{0.5, 0.5, 0.5}}}, Shape{Sphere{0.5}, {.position = {1, 0, 0}}}});
+  const TriangleMesh sheet(
+      SurfaceMesh{.positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}}, .triangles = {0, 2, 1, 0, 3, 2}});
+  StageDescription described;
+  described.nodes = {
+      {.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}},
+      {.name = "ball", .rest = at({0, 1, 0}, {2, 2, 2}), .body = BodyDescription{.shape = {Sphere{0.5}}}},
+      {.name = "box", .rest = at({10, 1, 0}, {2, 1, 3}), .body = BodyDescription{.shape = {Box{{0.5, 1, 0.5}}}}},
+      {.name = "dumbbell", .rest = at({20, 1, 0}, {2, 2, 2}), .body = BodyDescription{.shape = {dumbbell}}},
+      {.name = "sheet", .rest = at({30, 2, 0}, {2, 3, 4}), .body = BodyDescription{.shape = {sheet}, .fixed = true}}};
+  Stage stage(described);
+  for (const double time : {0.0, 0.2, 4.0}) {
+    CAPTURE(time);
+    stage.advance_to(time);
+    const auto down = [&](double x, double z) { return cast_ray(stage, {x, 9, z}, {0, -1, 0}); };
+    const auto is = [&](double x, double z, const char* name, double distance) {
+      const auto hit = down(x, z);
+      REQUIRE(hit);
+      CHECK(hit->node == stage.node(name));
+      CHECK(hit->distance == doctest::Approx(distance).epsilon(1e-4));
+    };
+    is(0, 0, "ball", 7);
+    is(0.6, 0, "ball", 9 - 1.8);
+    is(1.05, 0, "floor", 9);
+    is(10.95, 1.45, "box", 7);
+    is(11.05, 0, "floor", 9);
+    is(10, 1.55, "floor", 9);
+    is(22.6, 0, "dumbbell", 9 - 1.8);
+    is(31.95, 3.95, "sheet", 7);
+    is(32.05, 0, "floor", 9);
+    // A ball of half a meter from above, and along the floor.
+    const auto cast = cast_shape(stage, {Sphere{0.5}}, {.position = {10, 8, 0}}, {0, -10, 0});
+    REQUIRE(cast);
+    CHECK(cast->node == stage.node("box"));
+    CHECK(cast->fraction == doctest::Approx(0.55).epsilon(1e-4));
+    const NodeFilter no_floor{.accept = [&](NodeId node) { return node != stage.node("floor"); }};
+    const auto along = cast_shape(stage, {Sphere{0.5}}, {.position = {-5, 1, 0}}, {10, 0, 0}, no_floor);
+    REQUIRE(along);
+    CHECK(along->node == stage.node("ball"));
+    CHECK(along->fraction == doctest::Approx(0.35).epsilon(1e-4));
+    CHECK(overlapping(stage, {Sphere{0.1}}, {.position = {10.9, 1.9, 1.4}}) == std::vector{stage.node("box")});
+    CHECK(overlapping(stage, {Box{{0.1, 0.1, 0.1}}}, {.position = {31.9, 2.05, 3.9}}) ==
+          std::vector{stage.node("sheet")});
+    CHECK(distance(stage, stage.node("ball"), stage.node("box")).distance == doctest::Approx(8).epsilon(1e-4));
+    CHECK(distance(stage, stage.node("box"), stage.node("dumbbell")).distance == doctest::Approx(8).epsilon(1e-4));
+    CHECK(distance(stage, stage.node("dumbbell"), stage.node("sheet")).distance ==
+          doctest::Approx(std::hypot(6, 1) - 1).epsilon(1e-4));
+    CHECK(nearest_body(stage, {14, 1, 0}, 9, no_floor)->node == stage.node("box"));
+  }
+}

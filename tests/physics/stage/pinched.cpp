@@ -4,6 +4,7 @@
 #include <tweenfall/physics/shape.h>
 
 #include <algorithm>
+#include <array>
 
 using namespace tweenfall;
 using namespace tweenfall::test;
@@ -82,4 +83,87 @@ TEST_CASE("rows that are pressed together store nothing that would throw them") 
         }
         CHECK(fastest < 25 * speed);
       }
+}
+
+TEST_CASE("whatever is squeezed out between led bodies is told of, and stays bounded") {
+  const auto shape_of = [](std::uint64_t kind) -> Solid {
+    if (kind == 0) return Sphere{0.25};
+    if (kind == 1) return Box{{0.25, 0.25, 0.25}};
+    if (kind == 2) return Capsule{0.2, 0.25};
+    return Cylinder{0.25, 0.25};
+  };
+  const auto jaw_of = [](std::uint64_t kind) -> Solid {
+    if (kind == 0) return Sphere{0.5};
+    if (kind == 1) return Capsule{0.5, 0.5};
+    return Cylinder{0.5, 0.5};
+  };
+  Random random(17);
+  int exploded = 0;
+  double most = 0;
+  for (int i = 0; i < 120; ++i) {
+    CAPTURE(i);
+    const double rate = std::array{60.0, 240.0, 1000.0}[static_cast<std::size_t>(i % 3)];
+    const int count = 1 + i / 3 % 3;
+    const bool chained = i % 2 == 0;
+    StageDescription described = press(shape_of(random.bits() % 4), rate, i % 4 < 2 ? 0 : 0.5, count);
+    const Solid jaw = jaw_of(random.bits() % 3);
+    for (const NodeId node : {0, 1}) described.nodes[node].body->shape.solid = jaw;
+    for (int k = 0; k < count; ++k) {
+      NodeDescription& node = described.nodes[static_cast<std::size_t>(2 + k)];
+      node.rest.position += random.vector(0.02);
+      node.body->mass = random.between(0.5, 2);
+      if (!chained || k == 0) continue;
+      JointDescription joint{.name = "j" + std::to_string(k)};
+      joint.a = static_cast<std::size_t>(1 + k);
+      joint.b = static_cast<std::size_t>(2 + k);
+      joint.frame_a.position = {0.3, 0, 0};
+      joint.frame_b.position = {-0.3, 0, 0};
+      described.joints.push_back(joint);
+    }
+    Stage stage(described);
+    double fastest = 0;
+    while (stage.time() < 0.6 + 0.8 * count) {
+      stage.advance(1 / rate);
+      for (int k = 0; k < count; ++k)
+        fastest = std::max(fastest, stage.twist(static_cast<NodeId>(2 + k)).linear.norm());
+    }
+    const bool told = std::ranges::any_of(stage.events(), [](const StageEvent& event) {
+      return event.name == "squeezed" || event.name == "overlap" || event.name == "joint_strained";
+    });
+    most = std::max(most, fastest);
+    if (!(fastest > 3.3 * speed)) continue;
+    ++exploded;
+    CHECK(told);
+  }
+  MESSAGE(exploded << " of 120 presses explode, the fastest at " << most / speed << " times their speed");
+  CHECK(exploded > 20);
+  // A light body may get the energy of one four times as heavy.
+  CHECK(most < 2.1 * 10 * speed);
+}
+
+TEST_CASE("a ball pinched between balls that close leaves with ten times their speed at most, and is told of") {
+  Random random(3);
+  double most = 0;
+  for (int i = 0; i < 20; ++i) {
+    CAPTURE(i);
+    StageDescription described = press(Sphere{0.25}, 1000, 0);
+    for (const NodeId node : {0, 1}) described.nodes[node].body->shape.solid = Sphere{0.5};
+    // The nearer the three are to one line, the faster rigid bodies would make it leave.
+    described.nodes[2].rest = {.position = random.vector(0.02)};
+    Stage stage(described);
+    double fastest = 0;
+    while (stage.time() < 0.6) {
+      stage.advance(1e-3);
+      fastest = std::max(fastest, stage.twist(2).linear.norm());
+    }
+    most = std::max(most, fastest);
+    if (!(fastest > 3 * speed)) continue;
+    const auto told = std::ranges::find(stage.events(), "squeezed", &StageEvent::name);
+    REQUIRE(told != stage.events().end());
+    CHECK(told->nodes == std::vector<NodeId>{2});
+    CHECK(told->data.starts_with("{\"speed\": "));
+  }
+  // It may still touch one of them afterwards.
+  CHECK(most > 9.9 * speed);
+  CHECK(most < 10.1 * speed);
 }

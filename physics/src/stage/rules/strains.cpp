@@ -194,9 +194,25 @@ void report_torn_joints(StageState& state, std::vector<Happening>& happenings) {
   state.torn = std::move(torn);
 }
 
+void report_squeezed(StageState& state, std::vector<Happening>& happenings) {
+  std::erase_if(state.squeezed, [&](const Squeeze& one) { return state.time - one.last >= lasting - sliver; });
+  for (const StagedBody& body : state.bodies) {
+    if (!body.present || !state.world.squeezed(body.id)) continue;
+    const auto known =
+        std::ranges::lower_bound(state.squeezed, body.id.index, {}, [](const Squeeze& one) { return one.body.index; });
+    if (known != state.squeezed.end() && known->body == body.id) {
+      known->last = state.time;
+      continue;
+    }
+    state.squeezed.insert(known, {body.id, state.time});
+    tell_strain(state, "squeezed", "speed", state.world.twist(body.id).linear.norm(), {body.node}, {}, happenings);
+  }
+}
+
 }  // namespace
 
 void report_strains(StageState& state, std::vector<Happening>& happenings) {
+  report_squeezed(state, happenings);
   report_overlaps(state, happenings);
   report_torn_joints(state, happenings);
 }

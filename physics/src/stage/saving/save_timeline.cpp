@@ -29,6 +29,7 @@ void each_moving_field(State& state, const Visit& visit) {
   for (auto& body : state.bodies) visit(body);
   for (auto& armed : state.armed) visit(armed);
   visit(state.blows, state.presses, state.passing, state.strained, state.torn);
+  visit.rarely(state.squeezed);
   for (auto& staged : state.vehicles) visit(staged);
   for (auto& staged : state.particles) visit(staged);
 }
@@ -111,6 +112,8 @@ void check_blows(const StageState& state) {
   require(state.presses.size() <= state.node_of.size(), "list of what presses");
   const auto by_index = [](const Strain& strain) { return std::pair(strain.a.index, strain.b.index); };
   require(std::ranges::is_sorted(state.strained, {}, by_index), "list of overlaps");
+  require(std::ranges::is_sorted(state.squeezed, {}, [](const Squeeze& one) { return one.body.index; }),
+          "list of what is squeezed");
   require(std::ranges::is_sorted(state.torn, {}, &Tear::joint), "list of torn joints");
 }
 

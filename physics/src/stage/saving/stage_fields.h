@@ -426,6 +426,12 @@ void each_field(T& strain, const Visit& visit) {
   visit(a, b, since, told);
 }
 
+template <Is<staging::Squeeze> T, class Visit>
+void each_field(T& squeeze, const Visit& visit) {
+  auto& [body, last] = squeeze;
+  visit(body, last);
+}
+
 template <Is<staging::Tear> T, class Visit>
 void each_field(T& tear, const Visit& visit) {
   auto& [joint, since, told] = tear;

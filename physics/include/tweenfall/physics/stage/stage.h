@@ -40,13 +40,14 @@ struct StageEvent {
   double time = 0;  ///< stage time, s; for a contact, when the two met: it is reported once its impulse is known
   /// The clip event's name, or one of these: "contact"; "entered" and "left"; "joint_broke", and "joint_ended" when its
   /// `until` ends it; "overlap" of two bodies that overlap deeply, and "joint_strained" of a joint that for a twentieth
-  /// of a second is open, beyond a limit or short of its motor's speed; "vetoed" of a body that overlaps another and
+  /// of a second is open, beyond a limit or short of its motor's speed; "squeezed" of a body that keyed ones press out
+  /// between them, more than three times as fast as they move; "vetoed" of a body that overlaps another and
   /// therefore stays on its path, as its rule says; "split limit" of a step with more instants than may split it;
   /// "unpinned" of a pin that lets go, and "torn" of an edge of a soft body.
   std::string name;
-  std::string data;  ///< JSON text: what a clip event carries; {"depth": m}; of a joint {"gap": m}, {"beyond_limit": m
-                     ///< or rad} or {"missing_speed": m/s or rad/s}; {"splits": count}; {"node": of the soft body};
-                     ///< {"edge": of the soft body, "at": [where, m]}; else empty
+  std::string data;  ///< JSON text: what a clip event carries; {"depth": m}; {"speed": m/s}; of a joint {"gap": m},
+                     ///< {"beyond_limit": m or rad} or {"missing_speed": m/s or rad/s}; {"splits": count};
+                     ///< {"node": of the soft body}; {"edge": of the soft body, "at": [where, m]}; else empty
   std::vector<NodeId> nodes;  ///< of a contact, an overlap or a veto: both; of a sensor: the sensor and the body; of a
                               ///< joint: its bodies
   double impulse = 0;         ///< of a contact: N s
