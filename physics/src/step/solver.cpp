@@ -422,7 +422,7 @@ void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
   for (SolverBody& entry : bodies_) {
     const Body& body = bodies[entry.index];
     if (!entry.movable || entry.pulled || body.spherical()) continue;
-    if (!body.slender() && !(entry.angular.norm() * h > 1)) continue;
+    if (!(entry.angular.norm() * h > 1) && !body.slender()) continue;
     const double energy = 0.5 * entry.angular.dot(entry.inverse_inertia.inverse() * entry.angular);
     entry.angular = forces::bounded_spin(body.world_inertia(entry.rotation), energy, entry.angular);
   }

@@ -72,6 +72,7 @@ void BlockSolver::take(std::size_t place, const Body& body, const Load& load, In
                              ? Vec3(0.5 * (load.acceleration + load.end_acceleration))
                              : load.acceleration);
   pace.even = body.spherical() && load.torque == Vec3::Zero() && !(load.angular_drag > 0 || load.angular_damping > 0);
+  pace.slender = body.slender();
   pace.steady = pace.even && !(load.drag > 0);
   pace.unturned = pace.steady && entry.round;
   traits.uneven = !body.spherical();

@@ -37,6 +37,7 @@ struct alignas(64) BodyPace {
   double moment = 0;            ///< of a body with `even`, kg m^2
   bool movable = false;
   bool even = false;      ///< the same moment about every axis, and no torque: only contacts change its spin
+  bool slender = false;   ///< see state::Makeup
   bool steady = false;    ///< even, and no drag: only the acceleration and contacts change its velocity
   bool unturned = false;  ///< a steady ball: its rotation is computed after the step
   bool impact = false;    ///< meets something in this step: its velocity jumps

@@ -185,11 +185,10 @@ void BlockSolver::bound_spins(const std::vector<Body>& bodies, double h) {
     for (std::size_t k = begin; k < end; ++k) {
       BodyLanes& velocity = velocities_[uneven_[k]];
       const Vec3 angular = angular_of(velocity);
+      if (!paces_[uneven_[k]].slender && !(angular.squaredNorm() * h * h > 1)) continue;
       const IslandBody& entry = bodies_[uneven_[k]];
-      const Body& body = bodies[entry.index];
-      if (!body.slender() && !(angular.squaredNorm() * h * h > 1)) continue;
       const double energy = 0.5 * angular.dot(entry.inverse_inertia.inverse() * angular);
-      set(velocity.angular, forces::bounded_spin(body.world_inertia(entry.rotation), energy, angular));
+      set(velocity.angular, forces::bounded_spin(bodies[entry.index].world_inertia(entry.rotation), energy, angular));
     }
   });
 }
