@@ -52,13 +52,15 @@ class Squeeze {
         end(link->a, arm_of(link->a, link->joint->settings.frame_a));
       end(link->b, arm_of(link->b, link->joint->settings.frame_b));
     }
+    std::ranges::sort(free);
+    free.erase(std::ranges::unique(free).begin(), free.end());
   }
 
   /// Whether something presses against several bodies that do not give way.
   [[nodiscard]] bool squeezes() const { return several_; }
 
   double leading = 0;               ///< fastest of the points that are led, m/s
-  std::vector<std::uint32_t> free;  ///< the bodies that can move, each once
+  std::vector<std::uint32_t> free;  ///< the bodies that can move, in order, each once
 
  private:
   [[nodiscard]] Vec3 arm_of(std::uint32_t index, const Pose& frame) const {
@@ -71,7 +73,7 @@ class Squeeze {
   void end(std::uint32_t index, const Vec3& arm) {
     const Body& body = bodies_[index];
     if (!body.immovable()) {
-      if (std::ranges::find(free, index) == free.end()) free.push_back(index);
+      free.push_back(index);
       return;
     }
     firm(index);

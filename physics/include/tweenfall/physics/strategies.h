@@ -18,9 +18,10 @@ enum class ContactSolver : std::uint8_t {
   shock,       ///< over and over, then from the ground up with everything below held fixed
   /// All at once, as a linear complementarity problem: islands of up to 96 contact points by Lemke's pivots, larger
   /// ones by projected Gauss-Seidel in at most 20,000 passes, or by pivots as well if that takes many passes and there
-  /// are up to 1,536 points: complementarity is then met below 1e-9 m/s. `complementarity_residual` (detail.h) tells how
-  /// exact the solution is; beyond that number passes alone reach 1e-9 m/s in what is broad (a pyramid of thirty rows),
-  /// but miss it by some mm/s in a tower of six hundred boxes, and by some cm/s where masses differ a thousandfold.
+  /// are up to 1,536 points: complementarity is then met below 1e-9 m/s. `complementarity_residual` (detail.h) tells
+  /// how exact the solution is; beyond that number passes alone reach 1e-9 m/s in what is broad (a pyramid of thirty
+  /// rows), but miss it by some mm/s in a tower of six hundred boxes, and by some cm/s where masses differ a
+  /// thousandfold.
   lcp,
 };
 
