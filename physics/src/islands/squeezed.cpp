@@ -52,8 +52,8 @@ class Squeeze {
         end(link->a, arm_of(link->a, link->joint->settings.frame_a));
       end(link->b, arm_of(link->b, link->joint->settings.frame_b));
     }
-    std::ranges::sort(free);
-    free.erase(std::ranges::unique(free).begin(), free.end());
+    std::sort(free.begin(), free.end());
+    free.erase(std::unique(free.begin(), free.end()), free.end());
   }
 
   /// Whether something presses against several bodies that do not give way.
