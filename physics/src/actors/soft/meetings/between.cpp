@@ -144,10 +144,17 @@ class Meeter {
     const Vec3 normal = found->normal;
     const ContactPoint& point = found->points[0];
     const Vec3 arm = point.position + 0.5 * point.penetration * normal - center;
-    double weight = 0;
-    for (std::size_t k = 0; k < between.count; ++k)
-      weight += between.share[k] * between.share[k] * weight_[between.nodes[k]];
-    const double give = weight + partner.give_along(normal, arm);
+    double weight = 0, most = 0;
+    bool held = false;
+    for (std::size_t k = 0; k < between.count; ++k) {
+      const double share = between.share[k], its = weight_[between.nodes[k]];
+      weight += share * share * its;
+      most = std::max(most, share * its);
+      held = held || (its == 0 && share > 0);
+    }
+    // Beside a node that is held, the others would have to move many times as far as what is beside it: they would be
+    // thrown, and do not go farther than it should.
+    const double give = (held ? std::max(weight, most) : weight) + partner.give_along(normal, arm);
     if (!(give > 0)) return false;
     // Everything that came in this sub-step, and of the earlier overlap as much as may be removed.
     const Vec3 came = at(between, x_) - at(between, before_) - (center + arm - before_place(partner, arm));
