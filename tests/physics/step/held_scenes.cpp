@@ -21,7 +21,9 @@ void with_scene(const std::string& name, const Test& test) {
 }
 
 bool all_scenes() {
-  return std::getenv("TWEENFALL_ALL_SCENES") != nullptr;
+  const bool all = std::getenv("TWEENFALL_ALL_SCENES") != nullptr;
+  if (!all) MESSAGE("SKIPPED: takes longer than others; TWEENFALL_ALL_SCENES=1 runs it, as .ci/nightly does");
+  return all;
 }
 
 /// Depth of each pair that was in contact, where its bodies are now.
