@@ -17,6 +17,9 @@ namespace {
 
 constexpr BodyLag pressed_still = {{0, 0, 0, 1}};
 
+/// Passes that a heap needs in addition to hand on what springs back in it.
+constexpr int passes_of_rebounds = 1;
+
 }  // namespace
 
 /// Where a contact holds a body, the velocity after the impulses counts: a mean would leave all jitter undamped.
@@ -203,13 +206,17 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     joints_.move(velocities_);
     end_sub_step(h);
     end_lead();
-    for (int k = 0; k < relaxing; ++k) {
+    const bool springs = bouncy_ && springs_back_dully();
+    const int passes = relaxing + (springs && effort.heap ? passes_of_rebounds : 0);
+    for (int k = 0; k < passes; ++k) {
       holds_.solve(bodies, bodies_, contacts_, velocities_);
-      hard.sum_up = k + 1 == relaxing;
+      hard.sum_up = k + 1 == passes;
+      hard.springs = springs;
       by_color([&](const Rows& some) { kernels.solve(some, hard); });
       joints_.solve(velocities_, false, k % 2 == 0);
     }
     follow_spins(bodies);
+    if (springs) end_dull_rebounds();
     if (!rebounds_.empty()) {
       rebound(bodies, loads, effort.rebound_passes);
       joints_.solve(velocities_, false, true);

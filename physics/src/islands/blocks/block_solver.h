@@ -67,6 +67,15 @@ class BlockSolver {
     double speed_before = 0;    ///< m/s
   };
 
+  /// A point that springs back dully, and those of a part of the blocks.
+  struct DullRebound {
+    std::uint32_t lane, point;
+  };
+  struct Rebounds {
+    std::vector<Rebound> lively;
+    std::vector<DullRebound> dull;
+  };
+
   /// Properties of a body, or of a contact, found by any thread and then read in order.
   struct Traits {
     bool conveys = false, uneven = false, immovable = false, driven = false;
@@ -133,7 +142,9 @@ class BlockSolver {
 
   // Rebound
   void find_rebounds(double h);
-  void find_rebounds(const Rows& rows, std::size_t first, double h, std::vector<Rebound>& found);
+  void find_rebounds(const Rows& rows, std::size_t first, double h, Rebounds& found);
+  [[nodiscard]] bool springs_back_dully() const;
+  void end_dull_rebounds();
   void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes);
   template <class See>
   void each_rebound(const See& see);
@@ -184,7 +195,7 @@ class BlockSolver {
   bool any_stale_ = false;               ///< a body has turned since its rows were prepared
   std::vector<std::uint32_t> meetings_;  ///< lanes
   std::vector<Rebound> rebounds_;
-  std::vector<std::vector<Rebound>> rebound_parts_;  ///< of parts of the blocks, in order
+  std::vector<Rebounds> rebound_parts_;  ///< of parts of the blocks, in order
   ReboundReach reach_;
 };
 

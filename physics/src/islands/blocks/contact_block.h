@@ -29,6 +29,7 @@ struct PointRow {
   Lanes lever;            ///< distance from the middle of the points, m
   Lanes base;             ///< gap before any displacement, m
   Lanes total;            ///< impulse of the step
+  Lanes back = all(0);    ///< with which speed it springs back in this sub-step if it is pressed, m/s
 };
 
 /// Friction at one point, or for all points at their middle.
@@ -61,6 +62,7 @@ struct ContactBlock {
   std::int8_t points = 0;     ///< of the lane with the most; the points that other lanes lack have no mass
   std::int8_t frictions = 0;  ///< none, one at the middle of several points, or one per point
   bool drifts = false;        ///< some surface moves: there are rows for it
+  bool springs = false;       ///< some point may spring back
   bool even = true;           ///< all bodies have the same moment about every axis
   std::int8_t round_a[lane_count], round_b[lane_count];  ///< -1 for a ball: no contact can rock it
   Lanes3 normal, tangent1, tangent2;
@@ -88,6 +90,7 @@ struct BallBlock {
   Lanes coefficient;
   Mask hard, pressed;
   Lanes base, total;
+  Lanes back = all(0);  ///< as of a PointRow
   Lanes3 total_friction;
 };
 
@@ -106,6 +109,7 @@ struct PassRule {
   Lanes enough = all(0);     ///< with several passes: a smaller change no longer matters, per speed from the impulses
   int passes = 1;            ///< more than one only if no two lanes share a movable body
   bool note = false;         ///< records what is pressed and held
+  bool springs = false;      ///< what is pressed springs back
   bool sum_up = false;       ///< adds the impulses to the totals
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "contacts/combine.h"
 #include "islands/blocks/block_solver.h"
 #include "islands/island_energy.h"
 
@@ -38,7 +39,10 @@ void BlockSolver::find_rebounds(double h) {
   const std::size_t blocks = contacts_.blocks.size();
   meetings_.resize(contacts_.size() * lane_count);
   rebound_parts_.resize(std::max(rebound_parts_.size(), work_.range_count(contacts_.size(), blocks_worth_a_part)));
-  for (std::vector<Rebound>& part : rebound_parts_) part.clear();
+  for (Rebounds& part : rebound_parts_) {
+    part.lively.clear();
+    part.dull.clear();
+  }
   work_.numbered_ranges(
       contacts_.size(), blocks_worth_a_part, [&](std::size_t part, std::size_t begin, std::size_t end) {
         if (begin < blocks)
@@ -48,11 +52,11 @@ void BlockSolver::find_rebounds(double h) {
           find_rebounds(part_of(all, true, first - blocks, end - blocks), first, h, rebound_parts_[part]);
       });
   rebounds_.clear();
-  for (const std::vector<Rebound>& part : rebound_parts_) rebounds_.insert(rebounds_.end(), part.begin(), part.end());
+  for (const Rebounds& part : rebound_parts_) rebounds_.insert(rebounds_.end(), part.lively.begin(), part.lively.end());
 }
 
 /// @param first  how many blocks and balls come before these rows
-void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, std::vector<Rebound>& found) {
+void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, Rebounds& found) {
   std::uint32_t* meetings = meetings_.data() + first * lane_count;
   const std::size_t count = fastest_kernels().find_meetings(rows, starts_.data(), h, meetings);
   for (std::size_t i = 0; i < count; ++i) {
@@ -72,7 +76,18 @@ void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, s
       const double back = contact.restitution * speed;
       const double speed_at_end = back - meeting.pull[lane] * left;
       if (back <= hardly_back * meeting.tremble[lane] || speed_at_end <= 0) return;
-      found.push_back({at, k, speed_at_end, left * (back - 0.5 * meeting.pull[lane] * left) / speed_at_end});
+      if (contact.restitution > contacts::dull) {
+        found.lively.push_back({at, k, speed_at_end, left * (back - 0.5 * meeting.pull[lane] * left) / speed_at_end});
+        return;
+      }
+      found.dull.push_back({at, k});
+      if (ball) {
+        contacts_.balls[ball_index].back[lane] = speed_at_end;
+      } else {
+        ContactBlock& block = contacts_.blocks[index];
+        block.springs = true;
+        contacts_.points[block.point + k].back[lane] = speed_at_end;
+      }
     };
     if (ball) {
       const BallBlock& block = contacts_.balls[ball_index];
@@ -90,6 +105,25 @@ void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, s
            row.gap[lane]);
     }
   }
+}
+
+bool BlockSolver::springs_back_dully() const {
+  return std::ranges::any_of(rebound_parts_, [](const Rebounds& part) { return !part.dull.empty(); });
+}
+
+/// What sprang back starts the next sub-step with no impulse.
+void BlockSolver::end_dull_rebounds() {
+  for (const Rebounds& part : rebound_parts_)
+    for (const DullRebound& one : part.dull) {
+      const std::size_t index = one.lane / lane_count;
+      const int lane = static_cast<int>(one.lane % lane_count);
+      const bool ball = index >= contacts_.blocks.size();
+      ContactBlock* block = ball ? nullptr : &contacts_.blocks[index];
+      PointRow* row = ball ? nullptr : &contacts_.points[block->point + one.point];
+      if (block) block->springs = false;
+      (row ? row->back : contacts_.balls[index - contacts_.blocks.size()].back)[lane] = 0;
+      (row ? row->impulse : contacts_.balls[index - contacts_.blocks.size()].impulse)[lane] = 0;
+    }
 }
 
 /// See Solver::move_by_rebound.

@@ -52,8 +52,9 @@ struct BallWork : LaneWork<Register> {
     const Which outside = square > most;
     if (outside.any()) friction = select(outside, limit / root(square), Number(1.0)) * friction;
     friction = {watch.keep(friction.x, before.x), watch.keep(friction.y, before.y), watch.keep(friction.z, before.z)};
-    const Number next =
-        watch.keep(next_normal(block.gap, impulse_before, block.mass, block.hard, along, rule), impulse_before);
+    const Number next = watch.keep(next_normal(block.gap, impulse_before, block.mass, block.hard, along, rule,
+                                               rule.springs ? &block.back : nullptr),
+                                   impulse_before);
     const Vector dragged = friction - before;
     watch.note(next - impulse_before, block.mass);
     watch.note(dragged.x, block.slip_mass);

@@ -190,12 +190,15 @@ struct ContactWork : LaneWork<Register> {
         solve_friction<even>(pair, block, inertia, inverse_mass, frictions[i], drifts ? drifts + i : nullptr,
                              Number(block.coefficient) * points[i].impulse, watch);
     }
+    const bool springs = rule.springs && block.springs;
     for (int i = 0; i < block.points; ++i) {
       PointRow& point = points[i];
       const Vector turn_a = point.turn_a, turn_b = point.turn_b;
       const Number impulse = point.impulse;
       const Number speed = pair.along + (dot(turn_b, pair.angular_b) - dot(turn_a, pair.angular_a));
-      const Number next = watch.keep(next_normal(point.gap, impulse, point.mass, block.hard, speed, rule), impulse);
+      const Number next = watch.keep(
+          next_normal(point.gap, impulse, point.mass, block.hard, speed, rule, springs ? &point.back : nullptr),
+          impulse);
       const Number change = next - impulse;
       watch.note(change, point.mass);
       next.put(point.impulse);

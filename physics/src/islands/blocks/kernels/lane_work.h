@@ -79,12 +79,15 @@ struct LaneWork {
   };
 
   /// The impulse along the normal that two bodies with this gap and closing speed need next.
+  /// @param back  the speed with which a pressed point springs back; null if none does
   TWEENFALL_LANES static Number next_normal(const Number& gap, const Number& impulse, const Number& mass,
-                                            const Mask& hard, const Number& speed, const PassRule& rule) {
+                                            const Mask& hard, const Number& speed, const PassRule& rule,
+                                            const Lanes* back) {
     const Number zero(0.0), one(1.0);
     // A gap may close within the sub-step, but not further.
     const Which apart = gap > zero;
-    const Number wanted = select(apart, -gap * rule.inverse_h, lesser(-gap * rule.rate, rule.speed));
+    Number wanted = select(apart, -gap * rule.inverse_h, lesser(-gap * rule.rate, rule.speed));
+    if (back) wanted = select((impulse > zero) & (Number(*back) > zero), *back, wanted);
     const Which stiff = apart | Which::in(hard);
     const Number keeping = select(stiff, one, rule.keeping);
     const Number firm = select(stiff, one, rule.firm);
