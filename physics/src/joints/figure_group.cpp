@@ -186,14 +186,24 @@ void FigureGroup::write(const std::vector<IslandBody>& island, const std::vector
   fastest_figure_kernels().write(lanes_, rule);
 }
 
-void FigureGroup::keep_impulses() {
+void FigureGroup::keep_impulses(const Lanes& kept) {
+  bool all = true;
+  for (int lane = 0; lane < lane_count; ++lane) all = all && kept[lane] == 1;
   for (std::uint32_t place = 0; place < frames_.size(); ++place) {
     const FigureJoint& joint = joints_[place];
     if (joint.writing == Writing::by_kind) continue;
-    for (std::size_t i = 0; i < joint.count; ++i)
-      for (int lane = 0; lane < lane_count; ++lane)
-        // Adding 0 turns -0 into 0, so that other lanes do not show in the result.
-        frames_[place].impulses[joint.sources[i]][lane] = rows_[most_rows * place + i].impulse[lane] + 0.0;
+    for (std::size_t i = 0; i < joint.count; ++i) {
+      Lanes& impulses = frames_[place].impulses[joint.sources[i]];
+      const Lanes& now = rows_[most_rows * place + i].impulse;
+      // Adding 0 turns -0 into 0, so that other lanes do not show in the result.
+      if (all) {
+        for (int lane = 0; lane < lane_count; ++lane) impulses[lane] = now[lane] + 0.0;
+      } else {
+        for (int lane = 0; lane < lane_count; ++lane)
+          impulses[lane] =
+              (kept[lane] == 1 ? now[lane] : impulses[lane] + kept[lane] * (now[lane] - impulses[lane])) + 0.0;
+      }
+    }
   }
 }
 
@@ -283,7 +293,7 @@ void FigureGroup::end_load() {
   lanes_.stale = true;
 }
 
-void FigureGroup::unload(std::uint32_t place, int lane, std::array<double, most_rows>& impulses) const {
+void FigureGroup::unload(std::uint32_t place, int lane, std::array<double, most_rows>& impulses, double kept) const {
   if (joints_[place].writing != Writing::by_kind) {
     for (std::size_t row = 0; row < most_rows; ++row) impulses[row] = frames_[place].impulses[row][lane];
     return;
@@ -291,7 +301,9 @@ void FigureGroup::unload(std::uint32_t place, int lane, std::array<double, most_
   for (std::size_t i = 0; i < counts_[place][static_cast<std::size_t>(lane)]; ++i) {
     const std::size_t number = most_rows * place + i;
     // Adding 0 turns -0 into 0, so that other lanes do not show in the result.
-    impulses[slots_[number][static_cast<std::size_t>(lane)]] = rows_[number].impulse[lane] + 0.0;
+    double& impulse = impulses[slots_[number][static_cast<std::size_t>(lane)]];
+    const double now = rows_[number].impulse[lane] + 0.0;
+    impulse = kept == 1 ? now : impulse + kept * (now - impulse);
   }
 }
 
@@ -304,6 +316,8 @@ bool FigureGroup::acts(std::uint32_t place, int lane) const {
 void FigureGroup::forget(int lane) {
   for (std::uint32_t place = 0; place < lanes_.joint_count; ++place)
     for (std::size_t i = 0; i < joints_[place].count; ++i) rows_[most_rows * place + i].impulse[lane] = 0;
+  for (FigureFrame& frame : frames_)
+    for (Lanes& impulses : frame.impulses) impulses[lane] = 0;
 }
 
 }  // namespace tweenfall::joints

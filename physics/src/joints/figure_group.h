@@ -57,7 +57,8 @@ class FigureGroup {
              const blocks::Lanes& live, const WriteRule& rule);
   [[nodiscard]] Writing writing(std::uint32_t place) const { return joints_[place].writing; }
   /// Keeps the impulses of rows that were written in lanes for the start of the next sub-step.
-  void keep_impulses();
+  /// @param kept  share of the change in each lane
+  void keep_impulses(const blocks::Lanes& kept);
   /// Unit; see state::Joint.
   [[nodiscard]] Vec3 side(std::uint32_t place, int lane) const {
     return {0, frames_[place].side_y[lane], frames_[place].side_z[lane]};
@@ -65,8 +66,8 @@ class FigureGroup {
   /// Loads the rows of a joint; call `end_load` once all changed joints are loaded.
   void load(std::uint32_t place, int lane, const JointRows& rows, const Vec3& arm_a, const Vec3& arm_b);
   void end_load();
-  /// Impulses of the rows that were loaded, by row of the joint.
-  void unload(std::uint32_t place, int lane, std::array<double, most_rows>& impulses) const;
+  /// Impulses of the rows that were loaded, by row of the joint. @param kept  share of the change
+  void unload(std::uint32_t place, int lane, std::array<double, most_rows>& impulses, double kept) const;
   [[nodiscard]] bool acts(std::uint32_t place, int lane) const;
   /// Starts the next sub-step without impulses.
   void forget(int lane);

@@ -55,16 +55,44 @@ class IslandJoints {
       if (group.acts(place, lane)) acts(entry.a, entry.b);
     });
   }
+  /// An impulse at a point of a body.
+  struct Push {
+    std::uint32_t place = 0;  ///< of the body in the island
+    Vec3 along{0, 0, 0};      ///< unit direction
+    Vec3 turn{0, 0, 0};       ///< arm x direction, m
+    double inverse = 0;       ///< what is found: speed that the point gains per unit of impulse, 1/kg
+  };
+  /// Which bodies are held together by joints that are solved at once.
+  void find_figures_of_bodies(std::size_t bodies);
+  /// Number of the body's figure; `none` for a body without joints.
+  [[nodiscard]] std::uint32_t figure_of(std::uint32_t place) const { return members_of_[place].figure; }
+  [[nodiscard]] std::size_t figure_count() const { return group_count_ * blocks::lane_count; }
+  static constexpr std::uint32_t none = 0xffffffff;
+  /// Finds what pushes on bodies of figures bring about, with all that their joints carry along.
+  void respond(std::span<Push> pushes);
   /// The bodies move with these velocities.
   void move(const std::vector<blocks::BodyLanes>& velocities);
-  /// Adds up the impulses of the sub-step.
-  void end_sub_step();
+  /// Adds up the impulses of the sub-step. The next one starts with them. Where a body was struck, for which
+  /// `struck(place)` holds, only a part of what changed is kept: a blow says little about the forces after it.
+  template <class Struck>
+  void end_sub_step(const Struck& struck) {
+    each_group([&](FigureGroup& group) {
+      blocks::Lanes kept = blocks::all(1);
+      for (int lane = 0; lane < group.lanes(); ++lane)
+        for (std::uint32_t i = 0; i < group.body_count(); ++i)
+          if (struck(group.body(i, lane))) kept[lane] = kept_of_blow;
+      end_sub_step(group, kept);
+    });
+  }
   /// Starts the next sub-step without impulses of joints on bodies for which `wild(place)` holds.
   template <class Wild>
   void forget(const Wild& wild) {
     for (FigureGroup& group : groups())
-      for (int lane = 0; lane < group.lanes(); ++lane)
-        if (wild(group.moving_body(lane))) group.forget(lane);
+      for (int lane = 0; lane < group.lanes(); ++lane) {
+        if (!wild(group.moving_body(lane))) continue;
+        group.forget(lane);
+        for (std::uint32_t place = 0; place < group.size(); ++place) joints_[group.joint(place, lane)].impulses = {};
+      }
   }
   /// Returns impulses, forces and torques to the joints, removes the remaining errors by moving the bodies, and
   /// gives them velocities that fit their final positions.
@@ -72,6 +100,8 @@ class IslandJoints {
                 std::vector<blocks::BodyLanes>& velocities);
 
  private:
+  static constexpr double kept_of_blow = 0.25;
+
   struct Entry {
     state::Joint* joint = nullptr;
     std::uint32_t a = 0, b = 0;  ///< places
@@ -112,7 +142,8 @@ class IslandJoints {
     bool found = false;
   };
   KnownPlan& plan_for(std::span<const FigurePlan::Member> members);
-  void unload(const FigureGroup& group, bool in_lanes);
+  void end_sub_step(FigureGroup& group, const blocks::Lanes& kept);
+  void unload(const FigureGroup& group, bool in_lanes, const blocks::Lanes& kept);
   void write(FigureGroup& group, const blocks::Lanes& live, const std::vector<state::Body>& bodies,
              const std::vector<blocks::IslandBody>& island, const std::vector<blocks::BodyLanes>& velocities);
   void write(Entry& entry, const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
@@ -121,8 +152,15 @@ class IslandJoints {
   void close_gaps(FigureGroup& group, const std::vector<state::Body>& bodies, std::vector<blocks::IslandBody>& island,
                   const std::vector<blocks::BodyLanes>& velocities);
 
+  /// A body's figure, as 8 * group + lane, and its number there.
+  struct FigureMember {
+    std::uint32_t figure = none, number = 0;
+  };
+
   std::vector<Entry> joints_;
-  std::vector<FigureGroup> groups_;  ///< as many as any islands needed so far, since making one takes long
+  std::vector<FigureMember> members_of_;         ///< by place
+  std::vector<std::vector<std::uint32_t>> due_;  ///< by figure: pushes
+  std::vector<FigureGroup> groups_;              ///< as many as any islands needed so far, since making one takes long
   std::size_t group_count_ = 0;
   std::vector<std::uint32_t> gears_;  ///< in joints_
   static constexpr std::size_t most_known = 8;

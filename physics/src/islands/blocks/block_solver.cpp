@@ -184,6 +184,8 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     soft.passes = std::exchange(softening, 1);
     hard.passes = std::exchange(relaxing, 1);
   }
+  // In a heap something strikes every figure all the time.
+  const bool passes_on = !joints_.empty() && !effort.heap;
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);
@@ -191,8 +193,9 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     by_color([&](const Rows& some) { kernels.warm_start(some); });
     holds_.begin_sub_step(bodies, bodies_, velocities_, dt - (sub_step + 1) * h);
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
+    if (sub_step == 0 && passes_on) weigh_jointed();
     follow_spins(bodies);
-    if (bouncy_) find_rebounds(h);
+    if (bouncy_ || passes_on) find_meetings(h);
     // Joints have the last word: what a contact then lacks, the next sub-step supplies.
     for (int k = 0; k < softening; ++k) {
       soft.note = k + 1 == softening;
@@ -224,7 +227,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     if (!joints_.empty()) tame_jointed(bodies, h);
     // A rope that only the last pass tightened also pulled at both ends.
     joints_.each_acting([this](std::uint32_t a, std::uint32_t b) { paces_[a].touched = paces_[b].touched = true; });
-    joints_.end_sub_step();
+    if (!joints_.empty()) end_blows(passes_on);
     holds_.add_up();
     bound_spins(bodies, h);
   }

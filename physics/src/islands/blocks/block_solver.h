@@ -67,13 +67,14 @@ class BlockSolver {
     double speed_before = 0;    ///< m/s
   };
 
-  /// A point that springs back dully, and those of a part of the blocks.
-  struct DullRebound {
+  /// A point that meets something: with what springs back dully, or gives a blow to joints.
+  struct MeetingPoint {
     std::uint32_t lane, point;
   };
-  struct Rebounds {
+  /// Those of a part of the blocks.
+  struct Meetings {
     std::vector<Rebound> lively;
-    std::vector<DullRebound> dull;
+    std::vector<MeetingPoint> dull, blows;
   };
 
   /// Properties of a body, or of a contact, found by any thread and then read in order.
@@ -108,6 +109,7 @@ class BlockSolver {
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, double dt,
                       int sub_steps, int sub_step);
   void prepare_again(const std::vector<state::Body>& bodies);
+  void weigh_jointed();
   void find_lags();
   void find_lags_of_jointed();
   void tame_jointed(const std::vector<state::Body>& bodies, double h);
@@ -141,10 +143,12 @@ class BlockSolver {
   }
 
   // Rebound
-  void find_rebounds(double h);
-  void find_rebounds(const Rows& rows, std::size_t first, double h, Rebounds& found);
+  void find_meetings(double h);
+  void find_meetings(const Rows& rows, std::size_t first, double h, Meetings& found);
   [[nodiscard]] bool springs_back_dully() const;
   void end_dull_rebounds();
+  void end_blows(bool any);
+  void start_anew(const MeetingPoint& one, double share);
   void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes);
   template <class See>
   void each_rebound(const See& see);
@@ -184,7 +188,9 @@ class BlockSolver {
   std::vector<contacts::Closing> closings_;  ///< of the contacts
   ContactBlocks contacts_;
   joints::IslandJoints joints_;
-  JointedSpins spins_;  ///< empty if there are no joints
+  std::vector<joints::IslandJoints::Push> pushes_;
+  std::vector<std::uint32_t> borne_;  ///< by figure: points of contacts on it
+  JointedSpins spins_;                ///< empty if there are no joints
   IslandHolds holds_;
   bool bouncy_ = false;      ///< some contact has restitution
   bool conveyed_ = false;    ///< some surface moves
@@ -195,7 +201,8 @@ class BlockSolver {
   bool any_stale_ = false;               ///< a body has turned since its rows were prepared
   std::vector<std::uint32_t> meetings_;  ///< lanes
   std::vector<Rebound> rebounds_;
-  std::vector<Rebounds> rebound_parts_;  ///< of parts of the blocks, in order
+  std::vector<Meetings> meeting_parts_;  ///< of parts of the blocks, in order
+  std::vector<char> struck_;             ///< of bodies_: a jointed body that meets something in this sub-step
   ReboundReach reach_;
 };
 

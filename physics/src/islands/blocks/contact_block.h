@@ -68,6 +68,7 @@ struct ContactBlock {
   Lanes3 normal, tangent1, tangent2;
   Lanes inverse_mass_a, inverse_mass_b;
   Lanes inverse_moment_a, inverse_moment_b;  ///< if `even`
+  Lanes weight = all(1);                     ///< factor of the points' masses: see BlockSolver::weigh_jointed
   Lanes coefficient;                         ///< of friction
   Lanes twist_mass, twist, total_twist;      ///< about the normal, if friction is at the middle
   Mask hard;                                 ///< not soft: an impact
@@ -96,7 +97,8 @@ struct BallBlock {
 
 /// When contacts meet: see Closing.
 struct MeetingRow {
-  Lanes pull, tremble, restitution;
+  Lanes pull, tremble;
+  Lanes heeded;  ///< 1 if something follows when they meet: they spring back, or joints pass on the blow
 };
 
 /// How soft an overlapping contact is in one or more passes: the same in all lanes.

@@ -34,10 +34,10 @@ void put(LanesSymmetric& lanes, int lane, const Mat3& value) {
   lanes.yz[lane] = value(1, 2);
 }
 
-void put(MeetingRow& row, int lane, const contacts::Closing& closing, double restitution) {
+void put(MeetingRow& row, int lane, const contacts::Closing& closing, bool heeded) {
   row.pull[lane] = closing.pull;
   row.tremble[lane] = closing.tremble;
-  row.restitution[lane] = restitution;
+  row.heeded[lane] = heeded ? 1 : 0;
 }
 
 /// The inverse masses and inertias of two bodies, for the rows of a contact.
@@ -304,7 +304,7 @@ void ContactBlocks::fill_ball(std::size_t ball, int lane, ContactConstraint& con
   block.base[lane] = point.start_gap;
   block.impulse[lane] = ratio * point.kept_normal;
   put(block.friction, lane, ratio * (point.kept_friction - normal * normal.dot(point.kept_friction)));
-  put(ball_meetings[ball], lane, closing, contact.restitution);
+  put(ball_meetings[ball], lane, closing, contact.restitution > 0 || a.jointed || b.jointed);
   ball_origins[ball][static_cast<std::size_t>(lane)] = &contact;
 }
 
@@ -328,7 +328,7 @@ void ContactBlocks::fill(std::size_t index, int lane, ContactConstraint& contact
   block.inverse_moment_a[lane] = a.inverse_moment;
   block.inverse_moment_b[lane] = b.inverse_moment;
   block.coefficient[lane] = contact.friction;
-  put(meetings[index], lane, closing, contact.restitution);
+  put(meetings[index], lane, closing, contact.restitution > 0 || a.jointed || b.jointed);
   block.hard[lane] = contact.impact || a.pulled || b.pulled ? -1 : 0;
   const double ratio = contact.kept_step > h ? h / contact.kept_step : 1;
   block.twist[lane] = block.central() ? ratio * contact.kept_twist : 0;
@@ -397,7 +397,7 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
     put(row.turn_a, lane, across_a);
     put(row.turn_b, lane, across_b);
     const double inverse = masses.inverse_mass + masses.turning(across_a, across_b, across_a, across_b);
-    row.mass[lane] = inverse > 0 ? 1 / inverse : 0;
+    row.mass[lane] = inverse > 0 ? block.weight[lane] / inverse : 0;
     if (displacements) {
       // The rows add the whole displacement of the step to it.
       row.base[lane] = point.start_gap + normal.dot((arm_b - point.start_arm_b) - (arm_a - point.start_arm_a)) -

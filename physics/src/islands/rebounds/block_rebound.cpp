@@ -18,6 +18,8 @@ namespace {
 constexpr double quiet = 0.1;
 /// What comes back more slowly than this part of the jitter cannot be told from it.
 constexpr double hardly_back = 0.25;
+/// Share of a blow with which its contact begins the next sub-step, if joints passed it on.
+constexpr double kept_of_blow = 0.5;
 
 double dot(const double (&a)[4], const double (&b)[4]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -34,29 +36,30 @@ double kinetic(const BodyPace& pace, const BodyLanes& velocity) {
 
 }  // namespace
 
-void BlockSolver::find_rebounds(double h) {
+void BlockSolver::find_meetings(double h) {
   const Rows all = rows();
   const std::size_t blocks = contacts_.blocks.size();
   meetings_.resize(contacts_.size() * lane_count);
-  rebound_parts_.resize(std::max(rebound_parts_.size(), work_.range_count(contacts_.size(), blocks_worth_a_part)));
-  for (Rebounds& part : rebound_parts_) {
+  meeting_parts_.resize(std::max(meeting_parts_.size(), work_.range_count(contacts_.size(), blocks_worth_a_part)));
+  for (Meetings& part : meeting_parts_) {
     part.lively.clear();
     part.dull.clear();
+    part.blows.clear();
   }
   work_.numbered_ranges(
       contacts_.size(), blocks_worth_a_part, [&](std::size_t part, std::size_t begin, std::size_t end) {
         if (begin < blocks)
-          find_rebounds(part_of(all, false, begin, std::min(end, blocks)), begin, h, rebound_parts_[part]);
+          find_meetings(part_of(all, false, begin, std::min(end, blocks)), begin, h, meeting_parts_[part]);
         const std::size_t first = std::max(begin, blocks);
         if (first < end)
-          find_rebounds(part_of(all, true, first - blocks, end - blocks), first, h, rebound_parts_[part]);
+          find_meetings(part_of(all, true, first - blocks, end - blocks), first, h, meeting_parts_[part]);
       });
   rebounds_.clear();
-  for (const Rebounds& part : rebound_parts_) rebounds_.insert(rebounds_.end(), part.lively.begin(), part.lively.end());
+  for (const Meetings& part : meeting_parts_) rebounds_.insert(rebounds_.end(), part.lively.begin(), part.lively.end());
 }
 
 /// @param first  how many blocks and balls come before these rows
-void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, Rebounds& found) {
+void BlockSolver::find_meetings(const Rows& rows, std::size_t first, double h, Meetings& found) {
   std::uint32_t* meetings = meetings_.data() + first * lane_count;
   const std::size_t count = fastest_kernels().find_meetings(rows, starts_.data(), h, meetings);
   for (std::size_t i = 0; i < count; ++i) {
@@ -67,11 +70,15 @@ void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, R
     const bool ball = index >= contacts_.blocks.size();
     const std::size_t ball_index = index - contacts_.blocks.size();
     const MeetingRow& meeting = ball ? contacts_.ball_meetings[ball_index] : contacts_.meetings[index];
+    const std::uint32_t end_a = ball ? contacts_.balls[ball_index].a[lane] : contacts_.blocks[index].a[lane];
+    const std::uint32_t end_b = ball ? contacts_.balls[ball_index].b[lane] : contacts_.blocks[index].b[lane];
+    const bool jointed = bodies_[end_a].jointed || bodies_[end_b].jointed;
     const auto meet = [&](std::uint32_t k, double closing, double gap) {
       const auto [time, speed] = contacts::meeting_of(gap, closing, meeting.pull[lane], h);
       if (!(speed > meeting.tremble[lane])) return;
       contacts::PointConstraint& point = contact.points[k];
       point.approach = std::max(point.approach, speed);
+      if (jointed) found.blows.push_back({at, k});
       const double left = h - time;
       const double back = contact.restitution * speed;
       const double speed_at_end = back - meeting.pull[lane] * left;
@@ -108,22 +115,46 @@ void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, R
 }
 
 bool BlockSolver::springs_back_dully() const {
-  return std::ranges::any_of(rebound_parts_, [](const Rebounds& part) { return !part.dull.empty(); });
+  return std::ranges::any_of(meeting_parts_, [](const Meetings& part) { return !part.dull.empty(); });
 }
 
-/// What sprang back starts the next sub-step with no impulse.
+/// Starts the next sub-step of this point with a share of its impulse.
+void BlockSolver::start_anew(const MeetingPoint& one, double share) {
+  const std::size_t index = one.lane / lane_count;
+  const int lane = static_cast<int>(one.lane % lane_count);
+  if (index >= contacts_.blocks.size()) {
+    BallBlock& ball = contacts_.balls[index - contacts_.blocks.size()];
+    ball.impulse[lane] *= share;
+    ball.back[lane] = 0;
+    return;
+  }
+  ContactBlock& block = contacts_.blocks[index];
+  PointRow& row = contacts_.points[block.point + one.point];
+  row.impulse[lane] *= share;
+  row.back[lane] = 0;
+  block.springs = false;
+}
+
 void BlockSolver::end_dull_rebounds() {
-  for (const Rebounds& part : rebound_parts_)
-    for (const DullRebound& one : part.dull) {
-      const std::size_t index = one.lane / lane_count;
-      const int lane = static_cast<int>(one.lane % lane_count);
+  for (const Meetings& part : meeting_parts_)
+    for (const MeetingPoint& one : part.dull) start_anew(one, 0);
+}
+
+/// A blow says little about the forces after it. If joints that passed it on began the next sub-step with all of it,
+/// the passes would not take it back, and bodies would leave the ground with energy that they never had.
+void BlockSolver::end_blows(bool any) {
+  if (!any) return joints_.end_sub_step([](std::uint32_t) { return false; });
+  struck_.assign(bodies_.size(), 0);
+  for (const Meetings& part : meeting_parts_)
+    for (const MeetingPoint& one : part.blows) {
+      const std::size_t index = one.lane / lane_count, lane = one.lane % lane_count;
       const bool ball = index >= contacts_.blocks.size();
-      ContactBlock* block = ball ? nullptr : &contacts_.blocks[index];
-      PointRow* row = ball ? nullptr : &contacts_.points[block->point + one.point];
-      if (block) block->springs = false;
-      (row ? row->back : contacts_.balls[index - contacts_.blocks.size()].back)[lane] = 0;
-      (row ? row->impulse : contacts_.balls[index - contacts_.blocks.size()].impulse)[lane] = 0;
+      const std::size_t ball_index = index - contacts_.blocks.size();
+      struck_[ball ? contacts_.balls[ball_index].a[lane] : contacts_.blocks[index].a[lane]] = 1;
+      struck_[ball ? contacts_.balls[ball_index].b[lane] : contacts_.blocks[index].b[lane]] = 1;
+      start_anew(one, kept_of_blow);
     }
+  joints_.end_sub_step([&](std::uint32_t place) { return struck_[place] != 0 && bodies_[place].movable; });
 }
 
 /// See Solver::move_by_rebound.

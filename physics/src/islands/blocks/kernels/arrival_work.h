@@ -60,7 +60,7 @@ struct ArrivalWork : LaneWork<Register> {
     const Number fall = Number(0.5 * h * h) * greater(pull, zero);
     const Which arrives = Number(h) * closing + fall >= Number(1 - 1e-9) * open;
     const Which fast = closing * closing + Number(2.0) * pull * open > tremble * tremble;
-    return arrives & fast & (mass > zero) & (Number(row.restitution) > zero);
+    return arrives & fast & (mass > zero) & (Number(row.heeded) > zero);
   }
 
   TWEENFALL_LANES static std::size_t note_meetings(const Which& meets, std::size_t block, std::uint32_t* found) {
@@ -80,7 +80,7 @@ struct ArrivalWork : LaneWork<Register> {
     for (std::size_t i = 0; i < rows.count; ++i) {
       const ContactBlock& block = rows.blocks[i];
       const MeetingRow& meetings = rows.meetings[i];
-      if (!(Number(meetings.restitution) > Number(0.0)).any()) continue;
+      if (!(Number(meetings.heeded) > Number(0.0)).any()) continue;
       const Number along = dot(block.normal, linear(starts, block.a) - linear(starts, block.b));
       const Vector angular_a = angular(starts, block.a), angular_b = angular(starts, block.b);
       Which meets = along > along;
