@@ -32,6 +32,10 @@ bool pulls_without_limit(const Body& body) {
   return body.drive.owner() == Owner::driven && std::isinf(body.drive.max_force) && std::isinf(body.drive.max_torque);
 }
 
+bool bounds_spin(const Body& body, const SolverBody& entry, double h) {
+  return entry.angular.norm() * h > 1 || body.slender();
+}
+
 }  // namespace
 
 void Solver::begin(std::size_t bodies, double parts) {
@@ -415,14 +419,24 @@ void Solver::end_sub_step(double h) {
   }
 }
 
-/// Impulses are computed for the inertia at the end of free flight, but the body then turns otherwise. In turns of less
-/// than a radian that is an error of the step; in larger ones, and in any of a rod, it would feed the spin until
-/// nothing is finite.
+/// Impulses are computed for the inertia at the end of free flight, but the body then turns otherwise. Carried along
+/// with it, its spin keeps its energy: a rolling capsule that also turns about the vertical would otherwise spin ever
+/// faster.
+void Solver::carry_spins(const std::vector<Body>& bodies, double h) {
+  for (SolverBody& entry : bodies_) {
+    const Body& body = bodies[entry.index];
+    const bool left_alone = entry.movable && !entry.sprung && !entry.pulled && entry.drive_angular_impulse.isZero(0);
+    if (!left_alone || !entry.pressed || body.spherical() || bounds_spin(body, entry, h)) continue;
+    entry.angular = entry.rotation * (entry.free_rotation.conjugate() * entry.angular);
+  }
+}
+
+/// In turns of more than a radian, and in any of a rod, a spin that is carried along could be any: its energy is
+/// bounded, or it would grow until nothing is finite.
 void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
   for (SolverBody& entry : bodies_) {
     const Body& body = bodies[entry.index];
-    if (!entry.movable || entry.pulled || body.spherical()) continue;
-    if (!(entry.angular.norm() * h > 1) && !body.slender()) continue;
+    if (!entry.movable || entry.pulled || body.spherical() || !bounds_spin(body, entry, h)) continue;
     const double energy = 0.5 * entry.angular.dot(entry.inverse_inertia.inverse() * entry.angular);
     entry.angular = forces::bounded_spin(body.world_inertia(entry.rotation), energy, entry.angular);
   }
@@ -476,6 +490,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
     end_sub_step(h);
     end_lead();
     settle(relaxing, [&](bool backward) { return all(hard, backward); });
+    carry_spins(bodies, h);
     rebound(bodies, loads, contacts, thorough ? settings.iterations : std::max(1, settings.iterations / 4));
     bound_spins(bodies, h);
     add_totals(contacts, h);

@@ -85,6 +85,7 @@ class Solver {
   void find_lags(Contacts contacts);
   void add_totals(Contacts contacts, double h);
   void end_sub_step(double h);
+  void carry_spins(const std::vector<state::Body>& bodies, double h);
   void bound_spins(const std::vector<state::Body>& bodies, double h);
 
   // Rebound

@@ -185,6 +185,34 @@ TEST_CASE("momentum is kept when the last pass is the first to reach a body") {
       }
 }
 
+TEST_CASE("what rolls about its axis and turns about the vertical on a slippery floor gains no energy") {
+  // Without friction, only the normals act, and they do no work.
+  const Solid solids[] = {Capsule{0.15, 0.3}, Cylinder{0.15, 0.3}};
+  for (const Solid& solid : solids)
+    for (const double rate : {60.0, 240.0})
+      for (const double roll : {10.0, 30.0})
+        for (const double turn : {3.0, 10.0}) {
+          CAPTURE(kind_name(solid));
+          CAPTURE(rate);
+          CAPTURE(roll);
+          CAPTURE(turn);
+          World world({.sleep_after = std::numeric_limits<double>::infinity()});
+          world.add({.shape = {Plane{}}, .friction = 0, .fixed = true});
+          BodySettings body{.shape = {solid}, .mass = 1.0, .friction = 0};
+          body.motion.pose.position.y() = 0.15;
+          body.motion.pose.rotation = Quat(Eigen::AngleAxisd(0.5 * 3.14159265358979323846, Vec3::UnitX()));
+          body.motion.twist.angular = Vec3(0, turn, roll);
+          world.add(body);
+          const double start = energy_of(world);
+          double most = 0;
+          for (int i = 0; i < 4 * rate; ++i) {
+            world.step(1 / rate);
+            most = std::max(most, energy_of(world));
+          }
+          CHECK(most < 1.04 * start);
+        }
+}
+
 TEST_CASE("a floor that brakes at nearly g presses on what rides on it with g less its own braking") {
   for (const double most : {3.0, 4.9348, 7.0, 9.0})
     for (const double rate : {240.0, 60.0}) {

@@ -219,6 +219,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       joints_.solve(velocities_, false, k % 2 == 0);
     }
     follow_spins(bodies);
+    carry_spins(h);
     if (springs) end_dull_rebounds();
     if (!rebounds_.empty()) {
       rebound(bodies, loads, effort.rebound_passes);

@@ -116,6 +116,8 @@ class BlockSolver {
   void end_sub_step(double h);
   void lead(double dt, int sub_steps, int sub_step);
   void end_lead();
+  void carry_spins(double h);
+  [[nodiscard]] bool bounds_spin(std::uint32_t place, double h) const;
   void bound_spins(const std::vector<state::Body>& bodies, double h);
   void follow_spins(const std::vector<state::Body>& bodies);
   void end_jointed(const std::vector<state::Body>& bodies);

@@ -179,13 +179,30 @@ void BlockSolver::end_sub_step(double h) {
   for (const char stale : stale_) any_stale_ = any_stale_ || stale != 0;
 }
 
+/// See Solver::carry_spins; but what was pressed in the sub-step before turns from where this one began.
+void BlockSolver::carry_spins(double h) {
+  work_.ranges(uneven_.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = uneven_[k];
+      const IslandBody& entry = bodies_[i];
+      if (!paces_[i].pressed || entry.jointed || entry.held || bounds_spin(i, h)) continue;
+      const Quat& from = entry.followed ? entry.free_rotation : entry.sub_step_rotation;
+      set(velocities_[i].angular, entry.rotation * (from.conjugate() * angular_of(velocities_[i])));
+    }
+  });
+}
+
+bool BlockSolver::bounds_spin(std::uint32_t place, double h) const {
+  return paces_[place].slender || angular_of(velocities_[place]).squaredNorm() * h * h > 1;
+}
+
 /// See Solver::bound_spins.
 void BlockSolver::bound_spins(const std::vector<Body>& bodies, double h) {
   work_.ranges(uneven_.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       BodyLanes& velocity = velocities_[uneven_[k]];
       const Vec3 angular = angular_of(velocity);
-      if (!paces_[uneven_[k]].slender && !(angular.squaredNorm() * h * h > 1)) continue;
+      if (!bounds_spin(uneven_[k], h)) continue;
       const IslandBody& entry = bodies_[uneven_[k]];
       const double energy = 0.5 * angular.dot(entry.inverse_inertia.inverse() * angular);
       set(velocity.angular, forces::bounded_spin(bodies[entry.index].world_inertia(entry.rotation), energy, angular));
