@@ -40,9 +40,10 @@ Passage passage_of(const state::Body& body, const forces::Load& load, double dt)
   Passage passage{&body, shapes::place(body.shape(), body.motion.pose), course_of(body, load, dt)};
   passage.spin = passage.course.angular.norm();
   passage.swing = passage.course.swing;
+  passage.radius = body.radius();
   const Solid& solid = body.shape().solid;
   passage.simple = !surfaces::surface_of(solid) && !std::holds_alternative<Compound>(solid);
-  passage.boundless = std::isinf(body.radius());
+  passage.boundless = std::isinf(passage.radius);
   return passage;
 }
 

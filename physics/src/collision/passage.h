@@ -12,6 +12,7 @@ struct Passage {
   Course course;
   double spin = 0;         ///< rad/s
   double swing = 0;        ///< greatest speed of a surface point due to its spin, m/s
+  double radius = 0;       ///< the body's, m
   bool simple = false;     ///< neither a surface nor a compound
   bool boundless = false;  ///< a plane
 };

@@ -82,9 +82,10 @@ bool World::Implementation::find_manifold(contacts::ContactConstraint& constrain
                                           const collision::Passage& way_b, double dt,
                                           contacts::FoundPart* told_apart) const {
   const double swing = way_a.swing + way_b.swing;
-  const double reach = contacts::near_enough + (swing * dt > contacts::near_enough ? swing * dt : 0);
-  const Manifold manifold = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
-                                               contacts::near_enough, reach);
+  const double near = contacts::near_enough_of(way_a, way_b);
+  const double reach = near + (swing * dt > near ? swing * dt : 0);
+  const Manifold manifold =
+      collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed, near, reach);
   if (manifold.count > 0) {
     constraint.manifold = manifold;
     contacts::adopt(constraint, way_a, {a.center, a.motion.pose.rotation}, way_b, {b.center, b.motion.pose.rotation});
@@ -93,7 +94,7 @@ bool World::Implementation::find_manifold(contacts::ContactConstraint& constrain
     if (told_apart && apart.frame != collision::Apart::Frame::none)
       told_apart->aparts.push_back({{constraint.a, constraint.b}, apart});
     const double gap = collision::gap_along(way_a, way_b, manifold.normal);
-    const bool apart_now = collision::stay_apart(way_a, way_b, manifold.normal, gap, contacts::near_enough, dt);
+    const bool apart_now = collision::stay_apart(way_a, way_b, manifold.normal, gap, near, dt);
     const std::optional<double> meeting =
         apart_now ? std::nullopt
                   : collision::impact_time(way_a.course, way_b.course, dt, contacts::nearness_of_impact(a, b),
@@ -109,7 +110,7 @@ bool World::Implementation::find_manifold(contacts::ContactConstraint& constrain
     const collision::Prediction at_b = way_b.course.at(*meeting);
     // Includes what a spin brings down in the rest of the step, and what follows if a corner comes first.
     const double closing = std::max(0.0, manifold.normal.dot(way_a.course.linear - way_b.course.linear));
-    const double rest = contacts::near_enough + (swing + closing) * (dt - *meeting);
+    const double rest = near + (swing + closing) * (dt - *meeting);
     constraint.manifold =
         tweenfall::collide(*way_a.course.shape, at_a.node(a), *way_b.course.shape, at_b.node(b), rest);
     contacts::adopt(constraint, way_a, at_a, way_b, at_b);
@@ -322,7 +323,7 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
       if (next_apart != aparts.cend() && next_apart->pair == pairs[i]) {
         const Vec3 direction = next_apart->apart.in_world(way_a, way_b);
         const double gap = collision::gap_along(way_a, way_b, direction);
-        if (collision::stay_apart(way_a, way_b, direction, gap, contacts::near_enough, dt)) {
+        if (collision::stay_apart(way_a, way_b, direction, gap, contacts::near_enough_of(way_a, way_b), dt)) {
           part.aparts.push_back(*next_apart);
           if (contacts::may_follow(way_a, way_b, dt) &&
               (!contacts::tell_all(way_a, way_b) || contacts::follow(way_a, way_b, contacts::surely * gap, dt))) {

@@ -19,9 +19,9 @@ namespace {
 using collision::Passage;
 using surfaces::Surface;
 
-/// How far a body may move in a step and use its contacts with a surface again, m. Anything farther away than
-/// `near_enough` when they were found cannot touch then.
-constexpr double calm = 0.25 * near_enough;
+/// How far a body may move in a step and use its contacts with a surface again, in parts of what was near enough when
+/// they were found. Anything farther away cannot touch then.
+constexpr double calm = 0.25;
 
 /// Contacts of one solid with one surface, as they are found.
 class SurfaceContacts {
@@ -41,6 +41,7 @@ class SurfaceContacts {
         surface_is_a_(surface_is_a),
         stand_b_(stand_b),
         dt_(dt),
+        near_(near_enough_of(way_surface, way)),
         swing_(way.swing +
                way_surface.spin * ((way.body->center - way_surface.body->center).norm() + way.body->radius())) {}
 
@@ -53,7 +54,7 @@ class SurfaceContacts {
 
   /// Uses all remembered contacts again, or none.
   bool take_up_all(const state::ContactMemories& memories, std::span<const std::uint32_t> places) {
-    if (places.empty() || places.size() > most || way() > calm) return false;
+    if (places.empty() || places.size() > most || way() > calm * near_) return false;
     count_ = 0;
     for (const std::uint32_t place : places) {
       ContactConstraint& constraint = add();
@@ -69,22 +70,22 @@ class SurfaceContacts {
   }
 
   void find() {
-    const double reach = near_enough + (swing_ * dt_ > near_enough ? swing_ * dt_ : 0);
+    const double reach = near_ + (swing_ * dt_ > near_ ? swing_ * dt_ : 0);
     std::array<surfaces::KnownPlane, surfaces::Touch::most> known;
     std::size_t count = 0;
-    const surfaces::Touch now = touched(way_surface_.placed, way_.placed, near_enough, reach);
+    const surfaces::Touch now = touched(way_surface_.placed, way_.placed, near_, reach);
     for (std::size_t i = 0; i < now.count; ++i) {
       known[count++] = {now.manifolds[i].normal, height_of(now.manifolds[i])};
       found(now.manifolds[i], way_surface_.placed, 0);
     }
     if (!(way() > 0)) return;
     const surfaces::FirstMeetings first =
-        surfaces::first_meetings(surface_, way_surface_, way_, std::span(known).first(count), near_enough, dt_);
+        surfaces::first_meetings(surface_, way_surface_, way_, std::span(known).first(count), near_, dt_);
     for (std::size_t i = 0; i < first.count; ++i) {
       const double time = first.meetings[i].time;
       const shapes::Placed surface = placed(way_surface_, time);
       // Includes what a spin brings down in the rest of the step.
-      const double rest = near_enough + swing_ * (dt_ - time);
+      const double rest = near_ + swing_ * (dt_ - time);
       const surfaces::Touch then = touched(surface, placed(way_, time), rest, rest);
       for (std::size_t k = 0; k < then.count; ++k) found(then.manifolds[k], surface, time);
     }
@@ -163,7 +164,7 @@ class SurfaceContacts {
     if (manifold.count == 0 || count_ == most || !manifold.normal.allFinite()) return;
     const double height = height_of(manifold);
     for (std::size_t i = 0; i < count_; ++i)
-      if (normals_[i].dot(manifold.normal) > 1 - 1e-4 && std::abs(heights_[i] - height) <= near_enough) return;
+      if (normals_[i].dot(manifold.normal) > 1 - 1e-4 && std::abs(heights_[i] - height) <= near_) return;
     normals_[count_] = manifold.normal;
     heights_[count_] = height;
     ContactConstraint& constraint = add();
@@ -201,7 +202,7 @@ class SurfaceContacts {
   const Passage& way_b_;
   bool surface_is_a_;
   const state::Stand& stand_b_;
-  double dt_, swing_;
+  double dt_, near_, swing_;
   std::array<ContactConstraint, most> contacts_;
   std::array<Vec3, most> normals_;
   std::array<double, most> heights_;

@@ -22,7 +22,7 @@ constexpr int most_rounds = 8;
 /// Number of contacts that are worth a task of their own.
 constexpr std::size_t links_worth_a_part = 128;
 
-/// A blow that displaces a body in a step by less than this part of `near_enough` is none.
+/// A blow that displaces a body in a step by less than this part of what is near enough for it is none.
 constexpr double hardly_moved = 0.25;
 
 /// Two bodies may approach faster than blows along their normals tell, by this part of what these change: friction and
@@ -32,8 +32,9 @@ constexpr double astray = 0.25;
 /// Which bodies the blows of a step reach, when, and how hard at most.
 class Blows {
  public:
-  Blows(std::vector<Struck>& struck, std::size_t bodies, double dt) : struck_(struck), dt_(dt) {
-    struck_.assign(bodies, {dt});
+  Blows(std::vector<Struck>& struck, const std::vector<collision::Passage>& passages, double dt)
+      : struck_(struck), passages_(passages), dt_(dt) {
+    struck_.assign(passages.size(), {dt});
   }
   /// Whether anything was struck since the last call.
   [[nodiscard]] bool spread() { return std::exchange(spread_, false); }
@@ -43,7 +44,7 @@ class Blows {
   void strike(std::uint32_t body, double time, const Vec3& change) {
     Struck& struck = struck_[body];
     const double size = change.norm();
-    if (!(size * (dt_ - time) > hardly_moved * near_enough)) return;
+    if (!(size * (dt_ - time) > hardly_moved * near_enough_of(passages_[body]))) return;
     if (!(time < struck.time - 0.01 * dt_ || size > 0.05 * struck.most)) return;
     struck.time = std::min(struck.time, time);
     struck.change += change;
@@ -89,6 +90,7 @@ class Blows {
   }
 
   std::vector<Struck>& struck_;
+  const std::vector<collision::Passage>& passages_;
   double dt_;
   std::uint64_t now_ = 1;  ///< rises from link to link
   bool spread_ = false;
@@ -123,7 +125,7 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
   followers.clear();
   const std::span<contacts::FoundPart> all = std::span(found).first(parts);
   if (std::all_of(all.begin(), all.end(), [](const contacts::FoundPart& part) { return part.blows.empty(); })) return;
-  contacts::Blows blows(struck_bodies, bodies.size(), dt);
+  contacts::Blows blows(struck_bodies, passages, dt);
   for (const contacts::FoundPart& part : all)
     for (const contacts::Blow& blow : part.blows) {
       const double a = bodies[blow.a].immovable() ? 0 : 1 / bodies[blow.a].mass().mass;
@@ -171,8 +173,9 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
       const double fastest = (way_a.course.linear - way_b.course.linear).norm();
       if (contacts::tell_all(way_a, way_b) && !blows.may_bring(pair.link, fastest)) return false;
       // It came from a direction of earlier steps, but the result of this step must not depend on those.
-      const Manifold apart = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
-                                                contacts::near_enough, contacts::near_enough);
+      const double near = contacts::near_enough_of(way_a, way_b);
+      const Manifold apart =
+          collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed, near, near);
       const double gap = collision::gap_along(way_a, way_b, apart.normal);
       pair.link = contacts::link_of(pair.link.a, way_a, pair.link.b, way_b, apart.normal, gap);
       pair.known = true;
@@ -199,16 +202,16 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
     const contacts::Link& link = touching_links[i];
     if (cornered[i] == 0 || !blows.reach(link)) continue;
     contacts::ContactConstraint& contact = *active[i];
-    const double way = blows.hand_on(link);
-    if (!(way > contacts::near_enough)) continue;
     const collision::Passage &way_a = passages[contact.a], &way_b = passages[contact.b];
+    const double near = contacts::near_enough_of(way_a, way_b), way = blows.hand_on(link);
+    if (!(way > near)) continue;
     const Vec3& normal = contact.manifold.normal;
-    const double deep = contacts::near_enough + way;
+    const double deep = near + way;
     if (collision::corners_within(way_a, normal, deep) <= contact.count ||
         collision::corners_within(way_b, -normal, deep) <= contact.count)
       continue;
-    const Manifold wider = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
-                                              contacts::near_enough, deep);
+    const Manifold wider =
+        collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed, near, deep);
     if (wider.count > contact.count) meet_at_start(contact, wider);
   }
   const auto known = static_cast<std::ptrdiff_t>(active.size());

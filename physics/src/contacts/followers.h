@@ -12,7 +12,8 @@ namespace tweenfall::contacts {
 /// are not examined: in most heaps that is all of them.
 [[nodiscard]] inline bool may_follow(const collision::Passage& a, const collision::Passage& b, double dt) {
   const double square = std::max(a.course.linear.squaredNorm(), b.course.linear.squaredNorm()) * dt * dt;
-  return 16 * square > near_enough * near_enough;
+  const double near = near_enough_of(a, b);
+  return 16 * square > near * near;
 }
 
 /// The same for this gap, if one of the two is stopped, or pushed by a third body.
