@@ -25,6 +25,9 @@ constexpr std::size_t links_worth_a_part = 128;
 /// A blow that displaces a body in a step by less than this part of what is near enough for it is none.
 constexpr double hardly_moved = 0.25;
 
+/// A blow that displaces a body in a step by more than this part of its radius may send it where it had no pairs.
+constexpr double far_off = 0.25;
+
 /// Two bodies may approach faster than blows along their normals tell, by this part of what these change: friction and
 /// turning bring it about.
 constexpr double astray = 0.25;
@@ -51,7 +54,10 @@ class Blows {
     struck.most = struck.change.norm();
     struck.when = now_;
     spread_ = true;
+    if (struck.most * (dt_ - struck.time) > far_off * passages_[body].radius) hard_.push_back(body);
   }
+  /// Bodies that were struck hard since the last call.
+  [[nodiscard]] std::vector<std::uint32_t> struck_hard() { return std::exchange(hard_, {}); }
   /// Whether a blow reaches one of the two.
   [[nodiscard]] bool reach(const Link& link) const { return struck_[link.a].time < dt_ || struck_[link.b].time < dt_; }
   /// Whether a blow can bring two together that are at least `gap` apart.
@@ -94,6 +100,7 @@ class Blows {
   double dt_;
   std::uint64_t now_ = 1;  ///< rises from link to link
   bool spread_ = false;
+  std::vector<std::uint32_t> hard_;
 };
 
 }  // namespace
@@ -180,7 +187,7 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
       pair.link = contacts::link_of(pair.link.a, way_a, pair.link.b, way_b, apart.normal, gap);
       pair.known = true;
     }
-    if (!contacts::follow(way_a, way_b, pair.link.gap, dt)) return true;
+    if (!pair.beyond && !contacts::follow(way_a, way_b, pair.link.gap, dt)) return true;
     const double way = blows.hand_on(pair.link);
     if (way == 0) return false;
     contacts::ContactConstraint& constraint = followers.add();
@@ -193,9 +200,12 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
       followers.drop_last();
     return true;
   };
+  beyond.clear();
   for (int round = 0; round < contacts::most_rounds && blows.spread(); ++round) {
+    for (const std::uint32_t body : blows.struck_hard()) find_beyond(body, all, dt);
     for (std::size_t i = 0; i < touching_links.size(); ++i) blows.hand_on_again(touching_links[i], round, i);
     for (contacts::FoundPart& part : all) std::erase_if(part.followers, take);
+    std::erase_if(beyond, take);
   }
   // A body on few corners may be tilted by a blow until others come down. Corners that are near are known.
   for (std::size_t i = 0; i < active.size(); ++i) {

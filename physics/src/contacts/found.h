@@ -27,7 +27,8 @@ struct Link {
 struct Followers {
   Link link;
   std::uint32_t memory = state::ContactMemories::nowhere;
-  bool known = true;  ///< the width of the gap is known; otherwise only a lower bound
+  bool known = true;    ///< the width of the gap is known; otherwise only a lower bound
+  bool beyond = false;  ///< of a body that a blow sends where it was not going
 };
 
 /// Two bodies that meet within this step.

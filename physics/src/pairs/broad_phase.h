@@ -37,6 +37,14 @@ class BroadPhase {
   [[nodiscard]] const Bounds* box(std::uint32_t body) const {
     return movable_.has(body) ? &movable_.of(body) : immovable_.has(body) ? &immovable_.of(body) : nullptr;
   }
+  /// Calls `see(body)` for each movable body whose path through this step may lead through a box, as long as
+  /// `goes_on()`.
+  template <class GoesOn, class See>
+  void visit_swept(const Bounds& box, const GoesOn& goes_on, const See& see) const {
+    movable_.visit_while(box, goes_on, [&](std::uint32_t body) {
+      if (overlap(entries_[body].swept, box)) see(body);
+    });
+  }
   /// Searches for all pairs of the body again, when the bodies it may meet have changed.
   void look_again(std::uint32_t body);
 

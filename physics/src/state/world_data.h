@@ -65,6 +65,8 @@ struct World::Implementation : state::WorldState, step::Workspace {
   /// Contacts of pairs that would come together within this step after a blow on one of the two.
   /// @param parts  of `found`
   void find_followers(std::size_t parts, double dt);
+  /// Adds to `beyond` what a body that was struck hard may meet, but would not have met without the blow.
+  void find_beyond(std::uint32_t index, std::span<contacts::FoundPart> parts, double dt);
   /// Fills in what a contact takes from its bodies and from the step before.
   void finish_contact(contacts::ContactConstraint& constraint, const state::ContactMemory* memory) const;
   /// Contacts of a body, or of all its parts, with a body that is a mesh or a height field.

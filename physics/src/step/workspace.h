@@ -85,6 +85,7 @@ struct Workspace {
   std::vector<contacts::FoundPart> found;            ///< of all pairs, in their order
   contacts::FoundContacts followers;                 ///< contacts that blows of this step will close
   std::vector<contacts::Struck> struck_bodies;       ///< by body
+  std::vector<contacts::Followers> beyond;           ///< of bodies that are struck hard
   std::vector<contacts::Link> touching_links;        ///< of `active`
   std::vector<char> cornered;                        ///< by link: more of its corners may come down
   std::vector<contacts::ContactConstraint*> active;  ///< in `found` and `followers`: contacts near something that moves

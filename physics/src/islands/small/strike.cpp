@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 
 #include "contacts/meeting.h"
 #include "step/solver.h"
@@ -10,8 +11,8 @@ namespace tweenfall::step {
 
 namespace {
 
-/// Points nearer than this touch, m.
-constexpr double touching = 1e-6;
+/// Points nearer than this touch, m, and those that meet within this part of the step.
+constexpr double touching = 1e-6, meets_now = 2e-6;
 /// Blows at one instant; what still closes after them is solved with the rest of the step.
 constexpr int most_blows = 400;
 /// Passes over the points of one blow, and a change of velocity that no longer matters, relative to the greatest speed.
@@ -31,7 +32,7 @@ double Solver::closing_speed(const SolvedContact& contact) const {
   double fastest = 0;
   for (int i = 0; i < contact.count; ++i) {
     const SolvedPoint& point = contact.points[static_cast<std::size_t>(i)];
-    if (point.gap > touching) continue;
+    if (point.gap > touching_) continue;
     const double speed = contact.normal.dot(point_velocity(a, point.arm_a) - point_velocity(b, point.arm_b));
     fastest = std::max(fastest, speed);
   }
@@ -45,7 +46,7 @@ void Solver::strike_at_once(std::span<const std::size_t> numbers) {
       SolvedContact& contact = contacts_[n];
       for (int i = 0; i < contact.count; ++i) {
         SolvedPoint& point = contact.points[static_cast<std::size_t>(i)];
-        if (!(point.gap > touching)) see(contact, point, rows_[4 * n + static_cast<std::size_t>(i)]);
+        if (!(point.gap > touching_)) see(contact, point, rows_[4 * n + static_cast<std::size_t>(i)]);
       }
     }
   };
@@ -119,6 +120,10 @@ const std::vector<Blow>& Solver::strike(std::vector<state::Body>& bodies, const 
       rows_[4 * n + i].prepare(at(contact.a), at(contact.b), contact.points[i], contact.normal,
                                contact.friction > 0 ? &along : nullptr);
   }
+  touching_ = std::numeric_limits<double>::infinity();
+  double fastest_of_all = 0;
+  for (const SolvedContact& contact : contacts_) fastest_of_all = std::max(fastest_of_all, closing_speed(contact));
+  touching_ = std::max(touching, meets_now * dt * fastest_of_all);
   std::vector<std::size_t> hardest;
   std::vector<double> speeds(contacts_.size());
   for (int blow = 0; blow < most_blows; ++blow) {
