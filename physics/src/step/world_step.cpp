@@ -21,8 +21,8 @@ namespace {
 /// Number of bodies, or contacts, that are worth more than one thread.
 constexpr std::size_t worth_sharing = 128;
 /// Number of contacts, plus a share of joints, of islands that are solved together: more would not fit into a
-/// processor's nearest cache.
-constexpr std::size_t worth_a_batch = 256;
+/// processor's nearest cache. Towards the end of what several threads share it is fewer, so that they end together.
+constexpr std::size_t worth_a_batch = 256, fewest_in_a_batch = 64;
 /// Number of contacts that make an island worth dividing.
 constexpr std::size_t worth_dividing = 256;
 
@@ -146,6 +146,17 @@ void World::Implementation::end_watch() {
   for (const std::uint32_t i : lingering) note(i);
 }
 
+namespace step {
+namespace {
+
+/// How much an island adds to a batch.
+std::size_t batch_size_of(const islands::IslandContents& island) {
+  return island.contacts.size() + island.joints.size() / 4;
+}
+
+}  // namespace
+}  // namespace step
+
 step::Batch& step::Solvers::put_by(const islands::IslandContents& island, const blocks::BlockSolver::Effort& effort) {
   auto batch = std::find_if(batches.begin(), batches.end(), [&](const Batch& one) { return one.effort == effort; });
   if (batch == batches.end()) {
@@ -153,7 +164,7 @@ step::Batch& step::Solvers::put_by(const islands::IslandContents& island, const 
     batch = batches.end() - 1;
   }
   batch->islands.push_back(island);
-  batch->size += island.contacts.size() + island.joints.size() / 4;
+  batch->size += batch_size_of(island);
   return *batch;
 }
 
@@ -195,8 +206,15 @@ void World::Implementation::solve_islands(double dt) {
     islands::tame_pinched(contents, bodies, loads, settings, dt,
                           [this](std::uint32_t i) -> const Twist& { return starts[i].twist; });
   };
+  // As batches count it.
+  std::atomic<std::ptrdiff_t> left{static_cast<std::ptrdiff_t>(active.size() + links.size() / 4)};
+  const auto enough = [&] {
+    const auto its_share = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, left.load())) / (2 * shares);
+    return shares == 1 ? step::worth_a_batch : std::clamp(its_share, step::fewest_in_a_batch, step::worth_a_batch);
+  };
   const auto solve = [&](std::size_t island, step::Solvers& by, const threads::Workers& within) {
     const islands::IslandContents& contents = all[islands_by_size[island]];
+    left.fetch_sub(static_cast<std::ptrdiff_t>(step::batch_size_of(contents)));
     if (goes_by_strategies(contents)) {
       by.complementarity = std::max(by.complementarity, solve_by_strategies(contents, dt, by.strategies));
       return;
@@ -217,7 +235,7 @@ void World::Implementation::solve_islands(double dt) {
     } else if (effort->alone) {
       by.many.solve(bodies, loads, std::span(&contents, 1), *effort, settings, dt, moved, within);
       if (led) tame(contents);
-    } else if (step::Batch& batch = by.put_by(contents, *effort); batch.size >= step::worth_a_batch) {
+    } else if (step::Batch& batch = by.put_by(contents, *effort); batch.size >= enough()) {
       by.solve(batch, bodies, loads, settings, dt, moved);
     }
   };
