@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "islands/handed_back.h"
 #include "step/keyed_step.h"
 #include "step/softness.h"
 #include "step/solver.h"
@@ -132,13 +133,17 @@ void tame_pinched(const IslandContents& island, std::vector<Body>& bodies, const
     contact->kept_twist *= kept;
   }
   if (!pinched) return;
+  HandedBack handed_back(island, bodies);
   const auto bound = [&](std::uint32_t index) {
     Body& body = bodies[index];
     if (body.immovable()) return;
+    const Vec3 before = body.twist.linear;
     const double speed = body.twist.linear.norm(), spin = body.twist.angular.norm() * body.radius();
     if (speed > pinch.fastest) body.twist.linear *= pinch.fastest / speed;
     if (spin > pinch.spinning) body.twist.angular *= pinch.spinning / spin;
-    if (speed > pinch.fastest || spin > pinch.spinning) body.follow_center(body.motion.pose.rotation);
+    if (!(speed > pinch.fastest || spin > pinch.spinning)) return;
+    handed_back.note(index, body.mass().mass * (body.twist.linear - before));
+    body.follow_center(body.motion.pose.rotation);
   };
   for (const ContactConstraint* contact : island.contacts) {
     bound(contact->a);
@@ -148,6 +153,7 @@ void tame_pinched(const IslandContents& island, std::vector<Body>& bodies, const
     if (link->a != joints::JointLink::world) bound(link->a);
     bound(link->b);
   }
+  handed_back.hand_back();
 }
 
 }  // namespace tweenfall::islands

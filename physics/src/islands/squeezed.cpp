@@ -6,6 +6,7 @@
 #include <span>
 #include <variant>
 
+#include "islands/handed_back.h"
 #include "step/keyed_step.h"
 
 namespace tweenfall::islands {
@@ -125,14 +126,17 @@ void bound_squeezed(const IslandContents& island, std::vector<Body>& bodies, con
     least = std::min(least, too_much(index, fastest));
   }
   if (least == 1) return;
+  HandedBack handed_back(island, bodies);
   for (const std::uint32_t index : squeeze.free) {
     Body& body = bodies[index];
     // Jointed bodies slow down together, so that their joints hold.
     const double share = island.joints.empty() ? too_much(index, fastest) : least;
+    handed_back.note(index, (share - 1) * body.mass().mass * body.twist.linear);
     body.twist.linear *= share;
     body.twist.angular *= share;
     body.follow_center(body.motion.pose.rotation);
   }
+  handed_back.hand_back();
 }
 
 }  // namespace tweenfall::islands

@@ -139,3 +139,42 @@ TEST_CASE("bodies that meet in free fall turn about where gravity takes them") {
     CHECK((about_middle() - spun).norm() < 1e-10 * spun.norm());
   }
 }
+
+TEST_CASE("what led bodies pinch moves as their reactions tell, also where it is kept from getting too fast") {
+  constexpr double speed = 0.8;  // m/s, of each of the two
+  for (const Solid& solid : {Solid{Box{{0.25, 0.25, 0.25}}}, Solid{Capsule{0.2, 0.25}}})
+    for (const double friction : {0.0, 0.5})
+      for (const double rate : {60.0, 240.0}) {
+        CAPTURE(kind_name(solid));
+        CAPTURE(friction);
+        CAPTURE(rate);
+        World world({.gravity = {0, 0, 0}, .sleep_after = std::numeric_limits<double>::infinity()});
+        constexpr double far = 1.6, near = 0.5;  // m
+        std::vector<BodyId> jaws, pinched;
+        for (const double side : {-1.0, 1.0})
+          jaws.push_back(world.add({.shape = {Box{{0.5, 1, 1}}},
+                                    .friction = friction,
+                                    .drive = Drive::keyed(),
+                                    .motion = {.pose = {.position = {side * far, 0, 0}}}}));
+        for (const double place : {-0.59, 0.01, 0.61})
+          pinched.push_back(world.add({.shape = {solid},
+                                       .mass = 1,
+                                       .friction = friction,
+                                       .motion = {.pose = {.position = {place, 0.003, 0.002},
+                                                           .rotation = Quat(1, 0.03, 0.05, 0.06).normalized()}}}));
+        double pressed = 0;
+        for (int step = 1; step < 1.7 * rate; ++step) {
+          const double way = std::max(near, far - speed * step / rate);
+          for (std::size_t i = 0; i < jaws.size(); ++i) {
+            const double side = i == 0 ? -1 : 1;
+            world.set_target(jaws[i], {{.position = {side * way, 0, 0}}, {.linear = {-side * speed, 0, 0}}});
+          }
+          world.step(1 / rate);
+          Vec3 sum = world.reaction(jaws[0]) + world.reaction(jaws[1]);
+          for (const BodyId body : pinched) sum += world.twist(body).linear;
+          pressed = std::max(pressed, world.reaction(jaws[0]).norm());
+          CHECK(sum.norm() < 1e-13 * (100 + pressed));
+        }
+        CHECK(pressed > 1000);
+      }
+}
