@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
 #include "chains/chain_solve.h"
 
 // Why nothing flips: every step is a continuous function of the pose and the target, and so is a sequence of steps.
@@ -74,6 +78,15 @@ Arrow pull_of(const Ways& ways, const Dual& damping, const Arrow& missing) noexc
   return pull;
 }
 
+// A number from 0 to 1, the same for the same place among all that are drawn, and independent of the others.
+// Source: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014.
+double drawn(std::uint64_t place) noexcept {
+  std::uint64_t z = (place + 1) * 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
 class LimitedSolve {
  public:
   LimitedSolve(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept;
@@ -81,7 +94,7 @@ class LimitedSolve {
 
  private:
   void move_off() noexcept;
-  void track() noexcept;
+  void track(bool patiently) noexcept;
   double step(const Arrow& target) noexcept;
   void start_over(int number) noexcept;
   [[nodiscard]] Dual distance() const noexcept { return length(target_ - shape_.end()); }
@@ -162,16 +175,23 @@ void LimitedSolve::move_off() noexcept {
   bend(target_, shape_);
 }
 
-void LimitedSolve::track() noexcept {
-  constexpr int most = 100;
+// @param patiently  to the end; else only as long as it leads on by a tenth in four steps
+void LimitedSolve::track(bool patiently) noexcept {
+  constexpr int most = 100, glance = 4;
   constexpr double still = 1e-12;  // rad
   const Arrow from = shape_.end();
   // Clamped to the reach of the chain: a farther target in the same direction has the same result.
   const Measured way = measured(target_ - shape_.at(0));
   const Arrow to = way.length.v > shape_.reach().v ? shape_.at(0) + shape_.reach() * way.unit : target_;
   for (int i = 1; i < chain_.sweeps(); ++i) step(from + Dual(static_cast<double>(i) / chain_.sweeps()) * (to - from));
+  double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
-    const bool near = distance().v <= there * shape_.reach().v;
+    const double now = distance().v;
+    const bool near = now <= there * shape_.reach().v;
+    if (!patiently && i % glance == 0) {
+      if (now > 0.9 * before && !arrived()) return;
+      before = now;
+    }
     if (step(target_) < still || near) return;
   }
 }
@@ -180,13 +200,9 @@ void LimitedSolve::track() noexcept {
 void LimitedSolve::start_over(int number) noexcept {
   for (std::size_t i = 0; i < count_; ++i) {
     const JointChain::Joint& joint = shape_.joint(i);
-    // Spread evenly over the ranges. Source: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
-    constexpr double steps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
     double at[3];
-    for (int k = 0; k < 3; ++k) {
-      const double place = 0.5 + steps[k] * (number * 7 + static_cast<double>(i) * 3);
-      at[k] = place - std::floor(place);
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+      at[k] = drawn((static_cast<std::size_t>(number) * ChainShape::room + i) * 3 + k);
     Arrow by;
     if (const auto* hinge = std::get_if<HingeLimit>(&joint.limit)) {
       by.v = (hinge->low + at[0] * (hinge->high - hinge->low)) * hinge->axis;
@@ -204,15 +220,19 @@ void LimitedSolve::start_over(int number) noexcept {
 
 void LimitedSolve::run() noexcept {
   move_off();
-  track();
+  track(true);
   if (!chain_.leaps() || arrived() || length(target_ - shape_.at(0)).v > shape_.reach().v) return;
+  // What is missed by little may yet be reached from few places; what is missed by more surely is out of reach.
+  constexpr int some = 100, many = 400;
+  const double little = 0.02 * shape_.reach().v;
   const ChainShape nearest = shape_;
-  constexpr int more = 12;
-  for (int number = 0; number < more; ++number) {
+  double least = distance().v;
+  for (int number = 0; number < (least < little ? many : some); ++number) {
     start_over(number);
     bend(target_, shape_);
-    track();
+    track(false);
     if (arrived()) return;
+    least = std::min(least, distance().v);
   }
   shape_ = nearest;
 }
