@@ -13,6 +13,8 @@
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/crowd_pose.h>
 
+#include "clip/life.h"
+
 #include <compare>
 
 #include <cstddef>
@@ -158,11 +160,13 @@ struct CompiledClip {
   std::vector<float> numbers;
   std::vector<std::int32_t> words;
   std::vector<Climb> climbs;
-  std::vector<float> taps;  ///< made by `lay_out`
+  // Made by `lay_out`:
+  std::vector<float> taps;
+  clips::Rounds forwards, backwards;  ///< of plays whose speed is positive or negative
 };
 
-/// Sets where the rows of each run lie, from its form and channels, and the weights of its base. @returns the total
-/// number of words
+/// Sets where the rows of each run lie, from its form and channels, the weights of its base, and the rounds of plays.
+/// @returns the total number of words
 std::uint64_t lay_out(CompiledClip& clip);
 
 /// Moves the joints that climb to where they are after `cycle` rounds. @param rates  null for none

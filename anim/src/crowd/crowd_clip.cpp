@@ -1,10 +1,7 @@
 #include <tweenfall/anim/crowd.h>
 
-#include "clip/life.h"
 #include "crowd/compiled_clip.h"
 #include "crowd/sample_kernels.h"
-
-#include <algorithm>
 
 namespace tweenfall {
 
@@ -25,11 +22,7 @@ double CrowdClip::error() const noexcept {
 }
 
 ClipClock CrowdClip::clock(double at, double speed, double stage_time, Side side) const noexcept {
-  const bool lands = std::ranges::any_of(compiled_->timelines, [](const crowd::Timeline& timeline) {
-    return timeline.knots.back() == timeline.knots[timeline.knots.size() - 2];
-  });
-  return clips::steady_clock(clips::rounds_of(compiled_->duration, compiled_->loop, speed < 0, lands), at, speed,
-                             stage_time, side);
+  return clips::steady_clock(speed < 0 ? compiled_->backwards : compiled_->forwards, at, speed, stage_time, side);
 }
 
 void CrowdClip::sample(double clip_time, std::span<CrowdGroup> pose) const noexcept {

@@ -177,6 +177,11 @@ std::uint64_t lay_out(CompiledClip& clip) {
       for (const double weight : weights) clip.taps.push_back(static_cast<float>(weight));
     }
   }
+  const bool lands = std::ranges::any_of(clip.timelines, [](const Timeline& timeline) {
+    return timeline.knots.back() == timeline.knots[timeline.knots.size() - 2];
+  });
+  clip.forwards = clips::rounds_of(clip.duration, clip.loop, false, lands);
+  clip.backwards = clips::rounds_of(clip.duration, clip.loop, true, lands);
   return words;
 }
 

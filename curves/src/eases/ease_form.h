@@ -4,6 +4,8 @@
 
 #include <tweenfall/curves/ease.h>
 
+#include "slopes/c2_slopes.h"
+
 namespace tweenfall {
 
 struct Ease::Form {
@@ -14,7 +16,9 @@ struct Ease::Form {
   TurnRule turns = nullptr;
   ShapeRule shape = nullptr;  ///< set where the pieces depend on the duration
   std::vector<Piece> pieces{};
-  bool continuous_acceleration = false;                   ///< of the slopes
+  bool continuous_acceleration = false;  ///< of the slopes
+  /// Set where the slopes are those of a C2 spline: what its ends are, with the first two parameters as given numbers.
+  std::optional<slopes::C2End::Kind> c2_ends{};
   Ease (*with_ends)(double start, double end) = nullptr;  ///< the same ease with other first two parameters
 };
 

@@ -3,10 +3,12 @@
 #include "curve/bezier_span.h"
 #include "curve/curve_data.h"
 #include "curve/hermite_coefficients.h"
+#include "eases/ease_form.h"
 #include "keys/key_check.h"
 #include "keys/key_tangents.h"
 #include "keys/keys_converted.h"
 #include "keys/span_slopes.h"
+#include "slopes/c2_rows.h"
 
 namespace tweenfall::keying {
 namespace {
@@ -154,6 +156,32 @@ std::optional<Curve<T>> cubics_through_keys(std::span<const Key<T>> keys, const 
                                         {{}, all.values.back(), tangents.after()});
 }
 
+// The curve, if the keys are sound and state nothing but one and the same ease that makes a C2 spline: they are large,
+// and for very many of them reading them once takes less time than the rest.
+template <class T>
+std::optional<Curve<T>> one_c2_spline(std::span<const Key<T>> keys, const KeyOptions& options) {
+  if (keys.size() < 2 || options.ends != Ends::secant) return std::nullopt;
+  const Ease::Form& form = keys[0].ease.form();
+  if (!form.c2_ends) return std::nullopt;
+  std::vector<double> times(keys.size());
+  std::vector<T> values(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Key<T>& key = keys[i];
+    const bool alike = i + 1 == keys.size() || &key.ease.form() == &form;
+    if (!alike || key.in || key.out || key.value_in || !spans::all_finite(key.value)) return std::nullopt;
+    if (!std::isfinite(key.time) || (i > 0 && !(key.time > times[i - 1]))) return std::nullopt;
+    times[i] = key.time;
+    values[i] = key.value;
+  }
+  const auto end = [&](double given) {
+    return slopes::C2End{*form.c2_ends, std::vector<double>(spans::dimensions<T>, given)};
+  };
+  return CurveAccess::cubics_through<T>(
+      times, values,
+      slopes::c2_slopes(slopes::ValueRun<T>{times, values}, end(form.parameters[0]), end(form.parameters[1])),
+      {{}, values.front(), {}}, {{}, values.back(), {}});
+}
+
 // Numbers and vectors, in their own units.
 template <class T>
 Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
@@ -199,12 +227,16 @@ namespace tweenfall {
 
 template <class T>
 Curve<T> keyed_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
-  keying::check_keys(keys);
   if constexpr (std::is_same_v<T, Quat>) {
+    keying::check_keys(keys);
     return keying::rotation_curve(keys, options);
   } else if constexpr (std::is_same_v<T, Color>) {
+    keying::check_keys(keys);
     return keying::color_curve(keys, options);
   } else {
+    if (!options.logarithmic)
+      if (std::optional<Curve<T>> curve = keying::one_c2_spline(keys, options)) return *std::move(curve);
+    keying::check_keys(keys);
     return options.logarithmic ? keying::logarithmic_curve(keys, options) : keying::plain_curve(keys, options);
   }
 }

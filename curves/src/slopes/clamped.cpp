@@ -17,7 +17,10 @@ void clamped(const SlopeProblem& p) {
 namespace tweenfall {
 
 Ease Ease::clamped() {
-  static const Ease ease(Form{.name = "clamped", .slopes = &slopes::clamped, .continuous_acceleration = true});
+  static const Ease ease(Form{.name = "clamped",
+                              .slopes = &slopes::clamped,
+                              .continuous_acceleration = true,
+                              .c2_ends = slopes::C2End::Kind::slope});
   return ease;
 }
 
@@ -27,6 +30,7 @@ Ease Ease::clamped(double start, double end) {
                    .slopes = &slopes::clamped,
                    .parameters = {start, end, 0, 0},
                    .continuous_acceleration = true,
+                   .c2_ends = slopes::C2End::Kind::slope,
                    .with_ends = &Ease::clamped});
 }
 

@@ -22,8 +22,11 @@ void natural_given(const SlopeProblem& p) {
 namespace tweenfall {
 
 Ease Ease::natural() {
-  static const Ease ease(
-      Form{.name = "natural", .slopes = &slopes::natural, .turns = &turns::natural, .continuous_acceleration = true});
+  static const Ease ease(Form{.name = "natural",
+                              .slopes = &slopes::natural,
+                              .turns = &turns::natural,
+                              .continuous_acceleration = true,
+                              .c2_ends = slopes::C2End::Kind::second});
   return ease;
 }
 
@@ -33,6 +36,7 @@ Ease Ease::natural(double start, double end) {
                    .slopes = &slopes::natural_given,
                    .parameters = {start, end, 0, 0},
                    .continuous_acceleration = true,
+                   .c2_ends = slopes::C2End::Kind::second,
                    .with_ends = &Ease::natural});
 }
 

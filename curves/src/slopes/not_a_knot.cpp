@@ -14,7 +14,10 @@ void not_a_knot(const SlopeProblem& p) {
 namespace tweenfall {
 
 Ease Ease::not_a_knot() {
-  static const Ease ease(Form{.name = "not-a-knot", .slopes = &slopes::not_a_knot, .continuous_acceleration = true});
+  static const Ease ease(Form{.name = "not-a-knot",
+                              .slopes = &slopes::not_a_knot,
+                              .continuous_acceleration = true,
+                              .c2_ends = slopes::C2End::Kind::not_a_knot});
   return ease;
 }
 

@@ -22,21 +22,6 @@ void check_data(std::span<const double> times, std::span<const T> values, const 
   }
 }
 
-// A curve's values in the form that `c2_slopes` takes.
-template <class T>
-struct Run {
-  std::span<const double> times;
-  std::span<const T> values;
-
-  [[nodiscard]] std::size_t spans() const noexcept { return times.size() - 1; }
-  [[nodiscard]] static std::size_t dimensions() noexcept { return static_cast<std::size_t>(spans::dimensions<T>); }
-  [[nodiscard]] double duration(std::size_t i) const noexcept { return times[i + 1] - times[i]; }
-  [[nodiscard]] double secant(std::size_t i, std::size_t c) const noexcept {
-    const int component = static_cast<int>(c);
-    return (spans::component(values[i + 1], component) - spans::component(values[i], component)) / duration(i);
-  }
-};
-
 // Spans between the values, and the slopes at both ends of each, to be chosen.
 template <class T>
 struct Interpolation {
@@ -129,7 +114,7 @@ Curve<T> c2_spline(std::span<const double> times, std::span<const T> values, con
   const slopes::C2End start = splines::c2_end(ends.start), end = splines::c2_end(ends.end);
   if (!ends.closed)
     if (std::optional<Curve<T>> curve = CurveAccess::cubics_through<T>(
-            times, values, slopes::c2_slopes(splines::Run<T>{times, values}, start, end)))
+            times, values, slopes::c2_slopes(slopes::ValueRun<T>{times, values}, start, end)))
       return *std::move(curve);
   splines::Interpolation<T> frame(times, values);
   const std::size_t spans = frame.durations.size(), d = static_cast<std::size_t>(spans::dimensions<T>);

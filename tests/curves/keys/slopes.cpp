@@ -1,5 +1,6 @@
 #include <tweenfall/curves/calculus.h>
 #include <tweenfall/curves/keys.h>
+#include <tweenfall/curves/splines.h>
 
 #include "curves/span_derivative.h"
 #include "support.h"
@@ -316,4 +317,54 @@ TEST_CASE("an ease in another unit states its slopes in it, and any other ease i
   CHECK(Ease::natural(2, 0).scaled(3) == Ease::natural(6, 0));
   for (const Ease& ease : {Ease::clamped(), Ease::natural(), Ease::tcb(0.1, 0.2, 0.3), Ease::spring(0.3, 0.5)})
     CHECK(ease.scaled(2) == ease);
+}
+
+TEST_CASE("keys of one ease make the C2 spline through their values, however many they are and its ends are held") {
+  using End = SplineEnd<double>;
+  struct Held {
+    Ease ease;
+    SplineEnds<double> ends;
+  };
+  const Held all[] = {
+      {Ease::natural(), {}},
+      {Ease::natural(4, -1), {.start = {End::Kind::acceleration, 4}, .end = {End::Kind::acceleration, -1}}},
+      {Ease::clamped(-3, 2), {.start = {End::Kind::rate, -3}, .end = {End::Kind::rate, 2}}},
+      {Ease::not_a_knot(), {.start = {End::Kind::not_a_knot}, .end = {End::Kind::not_a_knot}}}};
+  test::Random random(19);
+  for (int count = 2; count < 40; ++count)
+    for (const Held& held : all) {
+      const std::vector<Key<double>> keys = random_keys(random, count, held.ease);
+      std::vector<double> times, values;
+      for (const Key<double>& key : keys) {
+        times.push_back(key.time);
+        values.push_back(key.value);
+      }
+      const Curve<double> curve = keyed_curve<double>(std::span<const Key<double>>(keys));
+      const Curve<double> spline = c2_spline<double>(times, values, held.ends);
+      CAPTURE(count);
+      CAPTURE(held.ease.name());
+      for (int i = 0; i < count; ++i) {
+        const double t = times[static_cast<std::size_t>(i)];
+        CHECK(curve.sample(t).rate == spline.sample(t).rate);
+        if (i > 0 && i + 1 < count)
+          CHECK(test::near(curve.sample(t, Side::in).acceleration, curve.sample(t).acceleration, 1e-8));
+      }
+    }
+}
+
+TEST_CASE("what is wrong with keys of one ease is told at the key") {
+  const auto refusal = [](const std::vector<Key<double>>& keys) {
+    try {
+      static_cast<void>(keyed_curve<double>(std::span<const Key<double>>(keys)));
+    } catch (const std::invalid_argument& problem) {
+      return std::string(problem.what());
+    }
+    return std::string();
+  };
+  const Ease ease = Ease::natural();
+  CHECK(refusal({{0, 1, ease}, {2, 3, ease}, {2, 4, ease}}) ==
+        "key 2 (time 2 s, value 4) must come after the key before it, at 2 s");
+  CHECK(refusal({{0, 1, ease}, {1, INFINITY, ease}, {2, 4, ease}}) ==
+        "key 1 (time 1 s, value inf) must have a finite value");
+  CHECK(refusal({{0, 1, ease}, {NAN, 2, ease}}).starts_with("key 1"));
 }
