@@ -192,6 +192,41 @@ ClipClock steady_clock(const Rounds& rounds, double at, double speed, double tim
   return clock_of(rounds, running, side, [&] { return speed; });
 }
 
+double next_moment(const Rounds& rounds, std::span<const ClipEvent> moments, double at, double speed,
+                   double after) noexcept {
+  if (moments.empty() || speed == 0) return infinity;
+  const double last = std::isfinite(rounds.total) ? rounds.total : std::isfinite(rounds.length) ? rounds.length : 0;
+  const double origin = speed < 0 ? last : 0;
+  const double began = origin + (std::max(after, at) - at) * speed;
+  const double here = rounds.loops() ? std::floor(began / rounds.length) : 0;
+  // Whether the clock is there, as it rounds.
+  const auto is_there = [&](double time, double round, double way) {
+    const ClipClock clock = steady_clock(rounds, at, speed, time, Side::out);
+    const double in = clock.cycle - rounds.left_out;
+    if (in != round) return (in > round) == (speed > 0);
+    const double inside = rounds.is_flipped(round) ? rounds.length - clock.time : clock.time;
+    return speed > 0 ? inside >= way : inside <= way;
+  };
+  double first = infinity;
+  for (const double beside : {-1.0, 0.0, 1.0}) {
+    if (!rounds.loops() && beside != 0) continue;
+    const double round = here + beside;
+    for (const ClipEvent& moment : moments) {
+      const double phase = rounds.phase_of(round, moment.from);
+      if (!(phase >= rounds.low && phase <= rounds.total)) continue;
+      const double way = rounds.is_flipped(round) ? rounds.length - moment.from : moment.from;
+      double time = at + (phase - origin) / speed;
+      if (time > first || time < after - 1e-12 * (1 + std::abs(after))) continue;
+      constexpr int most = 16;
+      const auto before = [](double t) { return std::nextafter(t, -infinity); };
+      for (int i = 0; i < most && is_there(before(time), round, way); ++i) time = before(time);
+      for (int i = 0; i < most && !is_there(time, round, way); ++i) time = std::nextafter(time, infinity);
+      if (time > after && time > at) first = std::min(first, time);
+    }
+  }
+  return first;
+}
+
 ClipClock Course::clock(double time, Side side) const noexcept {
   const bool steady = speed.is_constant();
   Running running;

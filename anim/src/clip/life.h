@@ -43,6 +43,10 @@ struct Rounds {
 /// The clock of a play at one speed that starts at `at`: what `Course` gives, without finding when it ends.
 [[nodiscard]] ClipClock steady_clock(const Rounds& rounds, double at, double speed, double time, Side side) noexcept;
 
+/// The first time after `after` at which such a clock meets a moment of a clip that is played whole; infinity for none.
+[[nodiscard]] double next_moment(const Rounds& rounds, std::span<const ClipEvent> moments, double at, double speed,
+                                 double after) noexcept;
+
 /// A stretch of time in which the phase goes one way.
 struct Stretch {
   double from = 0, to = 0;  ///< s

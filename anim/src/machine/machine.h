@@ -28,7 +28,7 @@ class Machine : public Operation {
   // Output
   void pose(const Log& log, const Moment& moment, const Scratch& scratch,
             std::span<Motion> out) const noexcept override;
-  [[nodiscard]] std::vector<const Operation*> operands() const override { return states_; }
+  [[nodiscard]] std::span<const Operation* const> operands() const noexcept override { return states_; }
   void events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const override;
   [[nodiscard]] std::optional<double> next_event(const Log& log, std::string_view name, double start, double after,
                                                  double until) const override;

@@ -17,7 +17,10 @@ class Blended : public Operation {
     const Operation* pose;
     Number weight;
   };
-  explicit Blended(std::vector<Part> parts) : parts_(std::move(parts)) {}
+  explicit Blended(std::vector<Part> parts) : parts_(std::move(parts)) {
+    operands_.reserve(parts_.size());
+    for (const Part& part : parts_) operands_.push_back(part.pose);
+  }
 
   void pose(const Log& log, const Moment& moment, const Scratch& scratch,
             std::span<Motion> out) const noexcept override {
@@ -35,12 +38,7 @@ class Blended : public Operation {
     blend({layers.data(), count}, scratch.below, out);
   }
 
-  [[nodiscard]] std::vector<const Operation*> operands() const override {
-    std::vector<const Operation*> poses;
-    poses.reserve(parts_.size());
-    for (const Part& part : parts_) poses.push_back(part.pose);
-    return poses;
-  }
+  [[nodiscard]] std::span<const Operation* const> operands() const noexcept override { return operands_; }
 
   [[nodiscard]] double share(const Log& log, std::size_t operand, double time) const noexcept override {
     double sum = 0;
@@ -69,6 +67,7 @@ class Blended : public Operation {
 
  private:
   std::vector<Part> parts_;
+  std::vector<const Operation*> operands_;
 };
 
 }  // namespace

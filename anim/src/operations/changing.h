@@ -26,8 +26,8 @@ class Changing : public Operation {
     if (!is_nothing(weight)) change(log, moment, weight, scratch, out);
   }
 
-  [[nodiscard]] std::vector<const Operation*> operands() const override {
-    return changed_.base ? std::vector{changed_.base} : std::vector<const Operation*>();
+  [[nodiscard]] std::span<const Operation* const> operands() const noexcept override {
+    return {&changed_.base, changed_.base ? std::size_t{1} : std::size_t{0}};
   }
 
   void bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,

@@ -43,9 +43,8 @@ class PlayedClip : public Operation {
   }
 
   [[nodiscard]] std::optional<double> next_jump(const Log&, double start, double after, double until) const override {
-    if (jumps_.events.empty()) return std::nullopt;
-    if (const auto jump = first_event(play(start), jumps_, after, until)) return jump->time;
-    return std::nullopt;
+    const double jump = clips::next_moment(rounds(), jumps_.events, start + at_, speed_, after);
+    return jump <= until ? std::optional(jump) : std::nullopt;
   }
 
   [[nodiscard]] double end(const Log&, double start) const noexcept override {
@@ -63,9 +62,10 @@ class PlayedClip : public Operation {
 
  private:
   [[nodiscard]] ClipClock clock(const Moment& moment) const noexcept {
-    const Clip& clip = clip_.clip();
-    return clips::steady_clock(clips::rounds_of(clip.duration, clip.loop, speed_ < 0, clip_.lands()),
-                               moment.start + at_, speed_, moment.time, moment.side);
+    return clips::steady_clock(rounds(), moment.start + at_, speed_, moment.time, moment.side);
+  }
+  [[nodiscard]] clips::Rounds rounds() const noexcept {
+    return clips::rounds_of(clip_.clip().duration, clip_.clip().loop, speed_ < 0, clip_.lands());
   }
   [[nodiscard]] Play play(double start) const { return {.clip = number_, .at = start + at_, .speed = speed_}; }
   static GraphEvent::Kind kind_of(FiredEvent::Kind kind) {

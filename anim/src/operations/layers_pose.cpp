@@ -19,7 +19,11 @@ class Layered : public Operation {
     Number weight;
     JointMask mask;
   };
-  Layered(const Operation* base, std::vector<Layer> layers) : base_(base), layers_(std::move(layers)) {}
+  Layered(const Operation* base, std::vector<Layer> layers) : base_(base), layers_(std::move(layers)) {
+    operands_.reserve(layers_.size() + 1);
+    if (base_) operands_.push_back(base_);
+    for (const Layer& layer : layers_) operands_.push_back(layer.pose);
+  }
 
   void pose(const Log& log, const Moment& moment, const Scratch& scratch,
             std::span<Motion> out) const noexcept override {
@@ -48,12 +52,7 @@ class Layered : public Operation {
   }
 
   // References are left out, because their events do not count.
-  [[nodiscard]] std::vector<const Operation*> operands() const override {
-    std::vector<const Operation*> poses;
-    if (base_) poses.push_back(base_);
-    for (const Layer& layer : layers_) poses.push_back(layer.pose);
-    return poses;
-  }
+  [[nodiscard]] std::span<const Operation* const> operands() const noexcept override { return operands_; }
 
   [[nodiscard]] double share(const Log& log, std::size_t operand, double time) const noexcept override {
     const auto weight = [&](const Layer& layer) {
@@ -87,6 +86,7 @@ class Layered : public Operation {
  private:
   const Operation* base_;  // null: what lies below the graph
   std::vector<Layer> layers_;
+  std::vector<const Operation*> operands_;
 };
 
 }  // namespace

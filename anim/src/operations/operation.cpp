@@ -5,7 +5,7 @@
 namespace tweenfall::graphs {
 
 void Operation::events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const {
-  const std::vector<const Operation*> poses = operands();
+  const std::span<const Operation* const> poses = operands();
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::size_t first = out.size();
     poses[i]->events(log, stretch, out);

@@ -94,7 +94,7 @@ class Operation {
   [[nodiscard]] virtual bool recall(const Log&, const Moment&, std::span<Motion>) const noexcept { return false; }
 
   /// The poses that it uses.
-  [[nodiscard]] virtual std::vector<const Operation*> operands() const { return {}; }
+  [[nodiscard]] virtual std::span<const Operation* const> operands() const noexcept { return {}; }
 
   /// The weight of an operand, given by its index among them.
   [[nodiscard]] virtual double share(const Log&, std::size_t, double) const noexcept { return 1; }

@@ -224,12 +224,21 @@ void Phase::each_event(const Log& log, std::size_t clip, const Clip& described, 
     const ClipEvent* event;
     GraphEvent::Kind kind;
   };
-  std::vector<Meeting> round;
-  for (const ClipEvent& event : described.events) {
-    round.push_back({event.from, &event, event.is_interval() ? GraphEvent::Kind::begin : GraphEvent::Kind::moment});
-    if (event.is_interval()) round.push_back({event.to, &event, GraphEvent::Kind::end});
+  // Moments in order, as where a clip jumps, need no memory of their own.
+  const std::vector<ClipEvent>& all = described.events;
+  const bool plain =
+      std::ranges::none_of(all, &ClipEvent::is_interval) && std::ranges::is_sorted(all, {}, &ClipEvent::from);
+  std::vector<Meeting> sorted;
+  for (std::size_t i = 0; !plain && i < all.size(); ++i) {
+    const bool lasts = all[i].is_interval();
+    sorted.push_back({all[i].from, &all[i], lasts ? GraphEvent::Kind::begin : GraphEvent::Kind::moment});
+    if (lasts) sorted.push_back({all[i].to, &all[i], GraphEvent::Kind::end});
   }
-  std::ranges::stable_sort(round, {}, &Meeting::way);
+  std::ranges::stable_sort(sorted, {}, &Meeting::way);
+  const std::size_t meetings = plain ? all.size() : sorted.size();
+  const auto meeting_at = [&](std::size_t i) {
+    return plain ? Meeting{all[i].from, &all[i], GraphEvent::Kind::moment} : sorted[i];
+  };
   const double duration = described.duration;
   double begin = std::max(from, start);
   bool closed = from < start;
@@ -241,7 +250,8 @@ void Phase::each_event(const Log& log, std::size_t clip, const Clip& described, 
     // Iterated by count: for very large turn numbers adding 1 changes nothing.
     const double first = std::floor(low / duration) - 1;
     for (double count = 0; count <= high / duration - first + 1; ++count)
-      for (const Meeting& meeting : round) {
+      for (std::size_t i = 0; i < meetings; ++i) {
+        const Meeting meeting = meeting_at(i);
         const double turn = first + count;
         const double met = meeting.way + turn * duration;
         if (met > high || met < low || (met == low && !closed)) continue;

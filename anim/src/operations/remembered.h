@@ -11,7 +11,7 @@ namespace tweenfall::graphs {
 class Remembered : public Operation {
  public:
   /// @param number index among the remembered operations of the graph
-  Remembered(const Operation& operation, std::size_t number) : operation_(operation), number_(number) {
+  Remembered(const Operation& operation, std::size_t number) : operation_(&operation), number_(number) {
     set_rooms(operation.rooms());
   }
 
@@ -20,17 +20,17 @@ class Remembered : public Operation {
     const RecentPoses::Question question = question_at(log, moment);
     RecentPoses& recent = log.recent[number_];
     if (recent.recall(question, out)) return;
-    operation_.pose(log, moment, scratch, out);
+    operation_->pose(log, moment, scratch, out);
     recent.remember(question, out);
   }
   [[nodiscard]] bool recall(const Log& log, const Moment& moment, std::span<Motion> out) const noexcept override {
     return log.recent[number_].recall(question_at(log, moment), out);
   }
 
-  [[nodiscard]] std::vector<const Operation*> operands() const override { return {&operation_}; }
+  [[nodiscard]] std::span<const Operation* const> operands() const noexcept override { return {&operation_, 1}; }
   void bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,
                Bearers& out) const noexcept override {
-    operation_.bearers(log, moment, node, weight, out);
+    operation_->bearers(log, moment, node, weight, out);
   }
 
  private:
@@ -38,7 +38,7 @@ class Remembered : public Operation {
     return {moment.time, moment.start, last_instant(log, -1, moment.time, moment.side), moment.side};
   }
 
-  const Operation& operation_;
+  const Operation* operation_;
   std::size_t number_;
 };
 

@@ -38,7 +38,7 @@ class Space : public Operation {
     blend({layers.data(), count}, scratch.below, out);
   }
 
-  [[nodiscard]] std::vector<const Operation*> operands() const override { return poses_; }
+  [[nodiscard]] std::span<const Operation* const> operands() const noexcept override { return poses_; }
 
   [[nodiscard]] double share(const Log& log, std::size_t operand, double time) const noexcept override {
     std::array<Sample<double>, most_blended> weights;

@@ -2,15 +2,20 @@
 
 // The common part of operations with springs: their course from the start of the state to now, from instant to instant.
 
+#include <tweenfall/curves/rotation.h>
+
 #include "graph/swing_course.h"
 #include "operations/changing.h"
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 
 namespace tweenfall::graphs {
 
 /// Springs use a clock that begins at the last instant, and see the base as it would continue from there if nothing
-/// more happened: so their movement until the next instant depends only on what happened before it.
+/// more happened: so their movement until the next instant depends only on what happened before it. Where a clip makes
+/// the base jump is an instant too, before which the base is seen as going on straight.
 template <class State>
 class Swing : public Changing {
  public:
@@ -37,24 +42,23 @@ class Swing : public Changing {
     SwingMemory& memory = log.swings[number_];
     if (!memory.prepared) prepare(memory);
     SwingCourse& course = course_since(memory, moment.start);
-    const double last = last_instant(log, moment.start, moment.time, moment.side);
     SwingMark& here = next_mark(course);
-    take_up(log, course, last, moment.time, here);
+    take_up(log, course, moment, here);
     State& state = std::get<State>(here.state);
     for (;;) {
-      const double from = here.instant;
-      const Clock clock{&script, from};
+      const double from = here.instant, jump = next_jump(log, moment, from);
+      const Clock clock{&script, from, jump};
       const PoseAt pose_at = [&clock](double time, std::span<Motion> out) { clock.at(time, out); };
-      if (!(from < last)) {
+      const double next = std::min(jump, next_instant(log, from));
+      if (moment.side == Side::out ? next > moment.time : next >= moment.time) {
         const Blinkers blinkers(log, from);
         show(state, moment.time - from, pose_at, weight, work, pose);
         here.time = moment.time;
         break;
       }
-      const double next = next_instant(log, from);
       {
         const Blinkers blinkers(log, from);
-        script.at(next, Side::in, before);
+        script.at(next == jump ? Clock::arrival(jump) : next, Side::in, before);
       }
       {
         const Blinkers blinkers(log, next);
@@ -86,9 +90,28 @@ class Swing : public Changing {
   };
   struct Clock {
     const Script* script;
-    double began;
-    void at(double time, std::span<Motion> out) const noexcept { script->at(began + time, Side::out, out); }
+    double began, jump;
+
+    /// The last time before a jump: at its own, rounded, a clip may already be behind it.
+    static double arrival(double jump) noexcept { return std::nextafter(jump, 0.0); }
+    void at(double time, std::span<Motion> out) const noexcept {
+      if (began + time < jump) return script->at(began + time, Side::out, out);
+      script->at(arrival(jump), Side::in, out);
+      const double beyond = began + time - jump;
+      for (Motion& motion : out) {
+        motion.pose.position += beyond * motion.twist.linear;
+        motion.pose.rotation = exp_map(beyond * motion.twist.angular) * motion.pose.rotation;
+        motion.pose.scale += beyond * motion.scale_rate;
+      }
+    }
   };
+
+  /// The first time after a clock began at which a clip makes the base jump, up to a second beyond the moment: springs
+  /// look ahead by no more than a step; infinity for none.
+  [[nodiscard]] double next_jump(const Log& log, const Moment& moment, double from) const noexcept {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    return base() ? base()->next_jump(log, moment.start, from, moment.time + 1).value_or(none) : none;
+  }
 
   void put_at_rest(SwingMark& mark) const noexcept {
     if (!std::holds_alternative<State>(mark.state)) mark.state.template emplace<State>();
@@ -106,12 +129,14 @@ class Swing : public Changing {
   }
 
   /// Sets `here` to the mark to continue from.
-  void take_up(const Log& log, const SwingCourse& course, double last, double time, SwingMark& here) const noexcept {
+  void take_up(const Log& log, const SwingCourse& course, const Moment& moment, SwingMark& here) const noexcept {
     here.instant = here.time = -1;  // so that `here` itself is not found
-    double instant = last, limit = time;
+    // What arrives at an instant is not yet on the clock that begins there.
+    double instant = moment.side == Side::out ? moment.time : std::nextafter(moment.time, -1.0), limit = moment.time;
     while (const SwingMark* found = furthest_mark(course, instant, limit)) {
       // A mark on an earlier clock is valid up to the end of that clock.
-      const double end = found->instant == last ? time : next_instant(log, found->instant);
+      const double end =
+          std::min(moment.time, std::min(next_instant(log, found->instant), next_jump(log, moment, found->instant)));
       if (found->time <= end && std::holds_alternative<State>(found->state)) {
         here = *found;
         return;

@@ -5,10 +5,11 @@
 /// Each changes the pose that it names as its `base` (none: the pose below the graph) by a weight: 0 leaves the base
 /// bit for bit, 1 shows the springs, which keep moving whatever the weight is. They start at rest with the graph, or
 /// with the state that shows them, and are determined by the log alone: the same bits whatever the frames. At every
-/// input, and whenever a machine passes to another state, their clock restarts, while their position and velocity in
-/// the world continue; so they do not see ahead beyond such an instant. Where a graph lies over another, only its own
-/// instants count, because its pose is determined by its own log, which is saved and played back by itself: a jump in
-/// the other graph is just a quick movement to these springs.
+/// input, whenever a machine passes to another state, and where a clip of their base jumps, within itself or where it
+/// loops, their clock restarts, while their position and velocity in the world continue; so they do not see ahead
+/// beyond such an instant. Where a graph lies over another or over plays, only its own instants count, because its pose
+/// is determined by its own log, which is saved and played back by itself: a jump below is just a quick movement to
+/// these springs, over a step of their grid.
 
 #include <tweenfall/anim/graph_number.h>
 #include <tweenfall/anim/spring.h>
