@@ -177,7 +177,7 @@ void LimitedSolve::move_off() noexcept {
 
 // @param patiently  to the end; else only as long as it leads on by a tenth in four steps
 void LimitedSolve::track(bool patiently) noexcept {
-  constexpr int most = 100, glance = 4;
+  constexpr int most = 300, glance = 4;
   constexpr double still = 1e-12;  // rad
   const Arrow from = shape_.end();
   // Clamped to the reach of the chain: a farther target in the same direction has the same result.

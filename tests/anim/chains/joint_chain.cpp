@@ -188,6 +188,23 @@ TEST_CASE("chains of sockets reach what their limits let them without leaping, a
   }
 }
 
+TEST_CASE("long chains of sockets reach what their limits let them without leaping") {
+  Random random(96);
+  for (const std::size_t count : {30, 65})
+    for (int i = 0; i < 60; ++i) {
+      CAPTURE(count);
+      CAPTURE(i);
+      const Hierarchy nodes = odd_chain(random, count);
+      JointChainSettings settings = limited_links(random, count, 0);
+      settings.method = i % 2 == 0 ? ChainMethod::fabrik : ChainMethod::ccd;
+      const JointChain chain(nodes, settings);
+      const Vec3 target = reachable(random, chain);
+      std::vector<Motion> pose = SwingingPose(random, nodes, 0, 1).at(1);
+      reach(chain, still(target), wholly, pose);
+      CHECK(missed(chain, pose, target) < 1e-6 * static_cast<double>(count));
+    }
+}
+
 TEST_CASE("chains with hinges and cones do not flip where their target moves on a line, within reach and beyond") {
   Random random(11);
   int flips = 0;
