@@ -33,6 +33,8 @@ BENCHMARK_CAPTURE(falling, exact_quadratic, Integrator::exact_quadratic);
 BENCHMARK_CAPTURE(falling, semi_implicit_euler, Integrator::semi_implicit_euler);
 BENCHMARK_CAPTURE(falling, verlet, Integrator::verlet);
 BENCHMARK_CAPTURE(falling, rk4, Integrator::rk4);
+BENCHMARK_CAPTURE(falling, backward_euler, Integrator::backward_euler);
+BENCHMARK_CAPTURE(falling, implicit_trapezoid, Integrator::implicit_trapezoid);
 
 void blown_around(benchmark::State& state) {
   Particles particles = spread(Integrator::exact_quadratic);

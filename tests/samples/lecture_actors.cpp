@@ -62,6 +62,25 @@ TEST_CASE("of a rate of 50 t particle k leaves at sqrt(k) / 5 s and flies as it 
   }
 }
 
+TEST_CASE(
+    "sparks on springs swing wider by explicit Euler, less by backward Euler, and as wide as ever by the others") {
+  Stage stage = actors_lecture("particles/swings");
+  const auto energy = [&](const std::string& kind) {
+    const StageParticles sparks = stage.particles(kind);
+    REQUIRE(sparks.positions.size() == 10);
+    // The first one's, in units of m w^2 / 2; it let go at 0.1 s, a whole number of steps.
+    return sparks.positions[0].x() * sparks.positions[0].x() + sparks.velocities[0].x() * sparks.velocities[0].x() / 16;
+  };
+  stage.advance_to(5.1);
+  const double growth = std::pow(1 + 0.01, 200);
+  CHECK(energy("explicit") == doctest::Approx(growth).epsilon(1e-9));
+  CHECK(energy("backward") == doctest::Approx(1 / growth).epsilon(1e-9));
+  CHECK(energy("implicit_trapezoid") == doctest::Approx(1).epsilon(1e-9));
+  // A ripple: of h w / 2, and of (h w)^2 / 4.
+  CHECK(energy("semi_implicit") == doctest::Approx(1).epsilon(0.06));
+  CHECK(energy("verlet") == doctest::Approx(1).epsilon(0.003));
+}
+
 TEST_CASE("the fountain's water lies on no body's inside, and a recording of it has all that the stage has") {
   Stage stage = actors_lecture("particles/fountain");
   const Recording recording = record(stage, 3, 30);

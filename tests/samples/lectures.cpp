@@ -45,7 +45,7 @@ TEST_CASE("every word of a world's strategies has a document") {
   CHECK(names_in("forces") ==
         std::set<std::string>{"attractor", "buoyancy", "damper", "drag", "field", "torque", "vortex", "wind"});
   CHECK(names_in("vehicle") == std::set<std::string>{"brakes", "climbs", "slides"});
-  CHECK(names_in("particles") == std::set<std::string>{"fountain", "rising_rate"});
+  CHECK(names_in("particles") == std::set<std::string>{"fountain", "rising_rate", "swings"});
   CHECK(names_in("plane") ==
         std::set<std::string>{"car", "compound", "gears", "machine", "rolling", "rope", "space", "springs", "xy"});
 }

@@ -51,7 +51,7 @@ TEST_CASE("a particle is where the lecture's table of the projectile says, secon
   }
 }
 
-TEST_CASE("each integrator of particles comes nearer to a planet's year by its order, and the implicit are refused") {
+TEST_CASE("each integrator of particles comes nearer to a planet's year by its order") {
   const auto off = [](Integrator integrator, int steps) {
     Particles particles({.gravity = Vec3(0, 0, 0), .integrator = integrator});
     particles.emit(Vec3(0.7, 0, 0), Vec3(0, 2 * pi * std::sqrt(1.3 / 0.7), 0));
@@ -64,17 +64,14 @@ TEST_CASE("each integrator of particles comes nearer to a planet's year by its o
   };
   for (const test::Method& method : test::methods) {
     CAPTURE(std::string(method.name));
-    if (method.integrator == Integrator::backward_euler || method.integrator == Integrator::implicit_trapezoid) {
-      CHECK_THROWS_AS(off(method.integrator, 1), std::invalid_argument);
-      continue;
-    }
     const double order = std::log2(off(method.integrator, 400) / off(method.integrator, 800));
     CHECK(std::abs(order - method.order) < 0.15);
   }
 }
 
 TEST_CASE("drag, winds and formulas do to particles what they do to bodies") {
-  for (const Integrator integrator : {Integrator::exact_quadratic, Integrator::rk4, Integrator::verlet}) {
+  for (const Integrator integrator : {Integrator::exact_quadratic, Integrator::rk4, Integrator::verlet,
+                                      Integrator::backward_euler, Integrator::implicit_trapezoid}) {
     WorldSettings settings;
     settings.integrator = integrator;
     World world(settings);

@@ -113,14 +113,6 @@ void read_forces(const json::Value& value, ParticlesDescription& particles, Buil
   for (const json::Value& force : value.items()) forces::read(force, particles.forces, building);
 }
 
-std::vector<std::pair<std::string, Integrator>> explicit_integrators() {
-  std::vector<std::pair<std::string, Integrator>> words = fields::integrator_words();
-  std::erase_if(words, [](const auto& word) {
-    return word.second == Integrator::backward_euler || word.second == Integrator::implicit_trapezoid;
-  });
-  return words;
-}
-
 const fields::Table<ParticlesDescription>& particles_table() {
   const auto of_settings = [](auto ParticleSettings::*part) {
     return [part](ParticlesDescription & particles) -> auto& {
@@ -155,8 +147,8 @@ const fields::Table<ParticlesDescription>& particles_table() {
        {"restitution", share_form(), "of bounces", member_of(&ParticleSettings::restitution)},
        {"friction", &ValueForms::not_negative, "with bodies", member_of(&ParticleSettings::friction)},
        {"gravity", &ValueForms::vector, "m/s^2; absent: the world's", gravity},
-       fields::one_of<ParticlesDescription, Integrator>("integrator", "an integrator of particles",
-                                                        explicit_integrators(), "the method of integration",
+       fields::one_of<ParticlesDescription, Integrator>("integrator", "an integrator", fields::integrator_words(),
+                                                        "the method of integration",
                                                         of_settings(&ParticleSettings::integrator)),
        {"forces", forces_form, "that act on them alone; only kinds that name no bodies", {read_forces, "[]"}},
        {"collide", &ValueForms::boolean, "whether they bounce off bodies",

@@ -25,7 +25,7 @@ struct ParticleFields;
 
 struct ParticleSettings {
   Vec3 gravity{0, -9.81, 0};  ///< m/s^2
-  /// Any but the implicit ones. With `exact_quadratic`, drag is implicit, and so stable.
+  /// Each particle by itself. With `exact_quadratic`, drag is implicit, and so stable; with the implicit ones, all is.
   Integrator integrator = Integrator::exact_quadratic;
   double mass = 1e-3;          ///< of each, kg; > 0
   double radius = 0;           ///< distance at which it touches bodies, and its size for a wind, m

@@ -43,11 +43,19 @@ enum class Instant { start, middle, end };
 void find_pulls(const Pulling& pulling, std::size_t count, const Lists& places, const Lists& speeds, double time,
                 Instant instant, Pulls& pulls);
 
+/// Accelerations that include all drag.
+void accelerate(const Pulling& pulling, std::size_t count, const Lists& places, const Lists& speeds, double time,
+                Instant instant, Pulls& pulls, Lists& out);
+
 /// Moves `count` particles through `dt` seconds.
 void integrate(Integrator integrator, const Pulling& pulling, std::size_t count, double time, double dt, Lists& places,
                Lists& speeds);
-/// Whether `integrate` has this integrator.
-[[nodiscard]] bool integrates(Integrator integrator);
+/// The same by mean rates to which those at the end, where they themselves lead, contribute `share`: 1 for backward
+/// Euler, 1/2 for the implicit trapezoid. Each particle alone: of a linear force the first step of Newton's method is
+/// the closed form. If there is no solution, the nearest approach is taken.
+/// Source: Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8.
+void meet_the_end(const Pulling& pulling, std::size_t count, double time, double dt, double share, Lists& places,
+                  Lists& speeds);
 
 /// Whether a force is of a kind that acts on particles.
 [[nodiscard]] bool acts_on_particles(const Force& force);

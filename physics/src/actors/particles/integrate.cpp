@@ -11,15 +11,6 @@ struct Stages {
   Pulls start, end;
 };
 
-/// Accelerations including all drag.
-void accelerate(const Pulling& pulling, std::size_t count, const Lists& places, const Lists& speeds, double time,
-                Instant instant, Pulls& pulls, Lists& out) {
-  find_pulls(pulling, count, places, speeds, time, instant, pulls);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t i = 0; i < count; ++i)
-      out[axis][i] = pulls.acceleration[axis][i] - pulls.drag[i] * speeds[axis][i];
-}
-
 /// x += h r
 void add(std::size_t count, double h, const Lists& rates, Lists& values) {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -124,8 +115,12 @@ void runge_kutta_4(const Pulling& pulling, std::size_t count, double time, doubl
 
 }  // namespace
 
-bool integrates(Integrator integrator) {
-  return integrator <= Integrator::verlet;
+void accelerate(const Pulling& pulling, std::size_t count, const Lists& places, const Lists& speeds, double time,
+                Instant instant, Pulls& pulls, Lists& out) {
+  find_pulls(pulling, count, places, speeds, time, instant, pulls);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t i = 0; i < count; ++i)
+      out[axis][i] = pulls.acceleration[axis][i] - pulls.drag[i] * speeds[axis][i];
 }
 
 void integrate(Integrator integrator, const Pulling& pulling, std::size_t count, double time, double dt, Lists& places,
@@ -148,8 +143,9 @@ void integrate(Integrator integrator, const Pulling& pulling, std::size_t count,
     case Integrator::verlet:
       return velocity_verlet(pulling, count, time, dt, stages, places, speeds);
     case Integrator::backward_euler:
+      return meet_the_end(pulling, count, time, dt, 1, places, speeds);
     case Integrator::implicit_trapezoid:
-      return;
+      return meet_the_end(pulling, count, time, dt, 0.5, places, speeds);
   }
 }
 

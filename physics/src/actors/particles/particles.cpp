@@ -6,6 +6,7 @@
 
 #include "actors/particles/block.h"
 #include "actors/particles/colliders.h"
+#include "forces/integrators/integrators.h"
 #include "state/checks.h"
 
 namespace tweenfall {
@@ -15,7 +16,7 @@ namespace {
 
 void validate(const ParticleSettings& settings) {
   state::require_finite(settings.gravity, "gravity");
-  state::require(integrates(settings.integrator), "particles cannot use an implicit integrator; choose another");
+  state::require(forces::exists(settings.integrator), "there is no such integrator");
   state::require(settings.mass >= state::smallest && settings.mass <= state::largest,
                  "mass of a particle must lie in 1e-30 kg to 1e30 kg");
   state::require_amount(settings.radius, "radius of a particle");
