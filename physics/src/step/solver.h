@@ -116,7 +116,7 @@ class Solver {
   small::Extrapolation extrapolation_;
   std::vector<double> from_, to_, best_;  ///< impulses before and after a pass, and those that a pass changed least
   std::vector<Blow> blows_;
-  double touching_ = 0;  ///< gap up to which points may strike each other, m
+  double touching_ = 0;             ///< gap up to which points may strike each other, m
   std::vector<char> holds_, held_;  ///< after a pass and after the one before it
 };
 

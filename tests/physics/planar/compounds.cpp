@@ -12,10 +12,10 @@ using namespace tweenfall::test;
 
 namespace {
 
-constexpr double compound_step = 1.0 / 60, always_awake = std::numeric_limits<double>::infinity();
+constexpr double compound_step = 1.0 / 60, never_asleep = std::numeric_limits<double>::infinity();
 
 /// A plate 2 m wide on two legs at its ends, its top 1 m above their feet; the node is between the feet.
-planar::Compound table() {
+planar::Compound flat_table() {
   return {{{planar::Box{Vec2(1, 0.1)}, Vec2(0, 0.9)},
            {planar::Box{Vec2(0.1, 0.4)}, Vec2(-0.9, 0.4)},
            {planar::Box{Vec2(0.1, 0.4)}, Vec2(0.9, 0.4)}}};
@@ -67,9 +67,9 @@ TEST_CASE("in a plane a compound has the mass, the center and the moment of its 
 
 TEST_CASE(
     "in a plane a table stands on its two feet, which bear its load by the law of the lever, and things pass below") {
-  planar::World world({.sleep_after = always_awake});
+  planar::World world({.sleep_after = never_asleep});
   const BodyId ground = world.add({.shape = {planar::HalfPlane{}}, .fixed = true});
-  const BodyId stand = world.add({.shape = {table()}, .mass = 10.0});
+  const BodyId stand = world.add({.shape = {flat_table()}, .mass = 10.0});
   const BodyId load =
       world.add({.shape = {planar::Box{Vec2(0.1, 0.1)}}, .mass = 5.0, .motion = {.position = Vec2(0.45, 1.1)}});
   // Below the plate there is room.
@@ -104,7 +104,7 @@ TEST_CASE(
 
 TEST_CASE("in a plane a compound that looks like one body moves like one") {
   const auto run = [](const planar::Shape& shape) {
-    planar::World world({.sleep_after = always_awake});
+    planar::World world({.sleep_after = never_asleep});
     world.add({.shape = {planar::HalfPlane{Vec2(0.2, 1)}}, .fixed = true});
     const BodyId body = world.add({.shape = shape,
                                    .mass = 2.0,
@@ -133,7 +133,7 @@ TEST_CASE("in a plane rays, moving shapes and distances meet a compound as they 
     const planar::Place place{Vec2(random.between(-1, 1), random.between(-1, 1)), random.between(-4, 4)};
     const planar::Place there{Vec2(random.between(-4, 4), random.between(-4, 4)), random.between(-4, 4)};
     const Vec2 from(random.between(-5, 5), random.between(-5, 5)), way(random.between(-1, 1), random.between(-1, 1));
-    double first = always_awake, apart = always_awake, nearest = always_awake, free = always_awake;
+    double first = never_asleep, apart = never_asleep, nearest = never_asleep, free = never_asleep;
     const planar::Shape ball{planar::Circle{0.2}};
     for (const planar::Part& part : compound.parts) {
       if (const auto hit = planar::cast_ray(alone(part), place, from, way)) first = std::min(first, hit->distance);
@@ -167,7 +167,7 @@ TEST_CASE("in a plane rays, moving shapes and distances meet a compound as they 
 }
 
 TEST_CASE("in a plane nothing quick passes the thin parts of a compound, and a sensor tells it once") {
-  planar::World world({.gravity = {0, 0}, .sleep_after = always_awake});
+  planar::World world({.gravity = {0, 0}, .sleep_after = never_asleep});
   planar::Compound comb;
   for (int i = 0; i < 20; ++i) comb.parts.push_back({planar::Box{Vec2(0.01, 1)}, Vec2(0.5 * i, 0)});
   const BodyId wall = world.add({.shape = {comb}, .fixed = true});
@@ -191,9 +191,9 @@ TEST_CASE("in a plane nothing quick passes the thin parts of a compound, and a s
 }
 
 TEST_CASE("in a plane a pair of compounds ends touching once, when the last of its parts has let go") {
-  planar::World world({.sleep_after = always_awake});
+  planar::World world({.sleep_after = never_asleep});
   const BodyId ground = world.add({.shape = {planar::HalfPlane{}}, .fixed = true});
-  const BodyId stand = world.add({.shape = {table()}, .mass = 10.0});
+  const BodyId stand = world.add({.shape = {flat_table()}, .mass = 10.0});
   go(world, 60);
   CHECK(world.contacts().size() == 2);
   world.set_motion(stand, {Vec2(0, 2)});
@@ -250,7 +250,7 @@ TEST_CASE("in a plane a compound of space is cut part by part, and moves about i
   // A heavy ball and a light, flat box: their sections have their center of mass elsewhere.
   const Compound hammer({{Sphere{0.4}, {.position = Vec3(0, 1, 0)}}, {Box{Vec3(0.1, 0.8, 0.05)}, {}}});
   const auto run = [&](WorldPlane plane, const Solid& solid) {
-    World world({.sleep_after = always_awake, .plane = plane});
+    World world({.sleep_after = never_asleep, .plane = plane});
     BodySettings body{.shape = {solid, {.position = Vec3(0.3, -0.2, 0)}}};
     body.motion.twist = {Vec3(1, 5, 0), Vec3(0, 0, 4)};
     const BodyId id = world.add(body);

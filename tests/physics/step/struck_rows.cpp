@@ -46,6 +46,7 @@ TEST_CASE("what a heavy ball strikes does not fly through what rests behind it")
         CHECK(world.motion(balls[i]).pose.position.x() - world.motion(balls[i - 1]).pose.position.x() > 0.99);
     }
     // All as one at restitution 0.
-    for (const BodyId ball : balls) CHECK(world.twist(ball).linear.x() == doctest::Approx(120.0 * 100 / 104).epsilon(1e-4));
+    for (const BodyId ball : balls)
+      CHECK(world.twist(ball).linear.x() == doctest::Approx(120.0 * 100 / 104).epsilon(1e-4));
   }
 }

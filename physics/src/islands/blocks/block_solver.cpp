@@ -18,7 +18,7 @@ namespace {
 constexpr BodyLag pressed_still = {{0, 0, 0, 1}};
 
 /// Passes that a heap needs in addition to hand on what springs back in it.
-constexpr int passes_of_rebounds = 1;
+constexpr int passes_of_rebounds = 2;
 
 }  // namespace
 
