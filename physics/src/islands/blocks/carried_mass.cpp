@@ -11,8 +11,8 @@ namespace {
 
 /// With more points of contact on a figure than this, none is given more weight: they could only share it.
 constexpr std::uint32_t most_borne = 6;
-/// More than this many times a body's own mass is not believed: what carries so much hangs on something.
-constexpr double least_share = 1e-3;
+/// Greatest factor. What carries more is a column: as soon as it buckles, it carries far less.
+constexpr double most_weight = 8;
 
 }  // namespace
 
@@ -80,8 +80,8 @@ void BlockSolver::weigh_jointed() {
       const double shared = borne_[joints_.figure_of(place)] * pushes_[next++].inverse;
       carrying += std::clamp(shared, 0.0, own);
     });
-    if (!(carrying > least_share * alone && carrying < alone)) return;
-    const double weight = alone / carrying;
+    if (!(carrying < alone)) return;
+    const double weight = std::min(most_weight, alone / carrying);
     if (i >= block_count) {
       contacts_.balls[i - block_count].mass[lane] *= weight;
       return;
