@@ -33,7 +33,8 @@ bool is_finite(const Body& body) {
 
 inner::Gain World::Implementation::gain_of(const Body& body) const {
   const Vec2 acceleration = settings.gravity + body.inverse_mass * body.force;
-  return {.x = acceleration.x(), .y = acceleration.y(), .turn = body.inverse_moment * body.torque};
+  return {
+      .x = acceleration.x(), .y = acceleration.y(), .turn = body.inverse_moment * body.torque, .driven = body.driven};
 }
 
 void World::Implementation::damp(std::uint32_t index, double h) {

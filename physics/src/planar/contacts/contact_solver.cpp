@@ -102,6 +102,7 @@ void ContactSolver::build(const Scene& scene) {
   velocities_.assign(rows, {});
   displacements_.assign(rows, {});
   starts_.assign(rows, {});
+  unpushed_.resize(rows);
   struck_at_.assign(rows, 0);
   for (const std::uint32_t i : scene.moving) velocities_[i] = starts_[i] = row_of(scene.bodies[i]);
   color(scene);
@@ -149,29 +150,32 @@ void ContactSolver::pull(const Body& body, Makeup& makeup, std::uint32_t index, 
   v.turn += turning.x();
 }
 
-void ContactSolver::begin_sub_step(const Scene& scene, double h, int left) {
+/// @param again  rows stay as they are through a step: what contacts gave a body in one sub-step, they give it at the
+///               start of the next
+void ContactSolver::begin_sub_step(const Scene& scene, double h, int left, bool again) {
+  const bool at_once = again && bouncy_.empty();
+  if (again && !at_once) gifts_.resize(velocities_.size());
   for (const std::uint32_t i : scene.moving) {
-    const Body& body = scene.bodies[i];
-    BodyRow& v = velocities_[i];
-    starts_[i] = v;
-    if (!body.movable) continue;
     const Gain& gain = gains[i];
-    v.x = (v.x + gain.x * h) * gain.keep;
-    v.y = (v.y + gain.y * h) * gain.keep;
-    v.turn = (v.turn + gain.turn * h) * gain.keep_turn;
-    if (body.driven) pull(body, scene.makeups[i], i, h, left * h);
+    BodyRow& v = velocities_[i];
+    BodyRow& unpushed = unpushed_[i];
+    const BodyRow start = v, gift = {v.x - unpushed.x, v.y - unpushed.y, v.turn - unpushed.turn, 0};
+    starts_[i] = start;
+    v = {(v.x + gain.x * h) * gain.keep, (v.y + gain.y * h) * gain.keep, (v.turn + gain.turn * h) * gain.keep_turn, 0};
+    if (gain.driven) pull(scene.bodies[i], scene.makeups[i], i, h, left * h);
+    if (at_once) {
+      unpushed = v;
+      v = {v.x + gift.x, v.y + gift.y, v.turn + gift.turn, 0};
+    } else if (again) {
+      gifts_[i] = gift;
+    }
   }
+  if (at_once) return;
+  if (!bouncy_.empty()) strike(h);
+  unpushed_ = velocities_;
+  if (again) give_again(scene);
 }
 
-/// Rows stay as they are through a step: what contacts gave a body in one sub-step, they give it at the start of the
-/// next.
-void ContactSolver::note_given(const Scene& scene) {
-  gifts_.resize(velocities_.size());
-  for (const std::uint32_t i : scene.moving) {
-    const BodyRow &v = velocities_[i], &unpushed = unpushed_[i];
-    gifts_[i] = {v.x - unpushed.x, v.y - unpushed.y, v.turn - unpushed.turn, 0};
-  }
-}
 void ContactSolver::give_again(const Scene& scene) {
   for (const std::uint32_t i : scene.moving) {
     BodyRow& v = velocities_[i];
@@ -187,7 +191,7 @@ void ContactSolver::move(const Scene& scene, double h) {
   for (const std::uint32_t i : scene.moving) {
     const BodyRow &v = velocities_[i], &unpushed = unpushed_[i], &start = starts_[i];
     BodyRow& moved = displacements_[i];
-    const bool flies = v.x == unpushed.x && v.y == unpushed.y && v.turn == unpushed.turn && !scene.bodies[i].driven;
+    const bool flies = v.x == unpushed.x && v.y == unpushed.y && v.turn == unpushed.turn && !gains[i].driven;
     if (flies) {
       moved.x += 0.5 * (start.x + v.x) * h;
       moved.y += 0.5 * (start.y + v.y) * h;
@@ -245,14 +249,10 @@ void ContactSolver::solve(Scene scene) {
   const Kernels& kernel = kernels();
   const bool contacts_alone = joints.empty() && rolling_.empty();
   for (int sub_step = 0; sub_step < scene.sub_steps; ++sub_step) {
-    begin_sub_step(scene, h, scene.sub_steps - 1 - sub_step);
-    if (!bouncy_.empty()) strike(h);
-    unpushed_ = velocities_;
+    const bool again = contacts_alone && sub_step > 0;
+    begin_sub_step(scene, h, scene.sub_steps - 1 - sub_step, again);
     joints.begin_sub_step(displacements_, velocities_);
-    if (contacts_alone && sub_step > 0)
-      give_again(scene);
-    else
-      kernel.warm_start(blocks_.data(), blocks_.size(), velocities_.data());
+    if (!again) kernel.warm_start(blocks_.data(), blocks_.size(), velocities_.data());
     warm_start_rolling();
     joints.solve(velocities_, true);
     resist_rolling();
@@ -264,7 +264,6 @@ void ContactSolver::solve(Scene scene) {
     if (relaxes) kernel.solve(blocks_.data(), blocks_.size(), velocities_.data(), displacements_.data(), hard);
     resist_rolling();
     joints.end_sub_step();
-    if (contacts_alone) note_given(scene);
   }
   joints.end_step(displacements_);
   joints.keep(scene.kept);

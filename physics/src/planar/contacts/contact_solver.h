@@ -14,6 +14,7 @@ namespace tweenfall::planar::inner {
 struct Gain {
   double x = 0, y = 0, turn = 0;  ///< m/s^2, rad/s^2
   double keep = 1, keep_turn = 1;
+  bool driven = false;
 };
 
 /// Impulses of a step at one meeting, N s.
@@ -72,7 +73,7 @@ class ContactSolver {
   void build(const Scene& scene);
   void color(const Scene& scene);
   void fill(const Scene& scene, std::uint32_t k);
-  void begin_sub_step(const Scene& scene, double h, int left);
+  void begin_sub_step(const Scene& scene, double h, int left, bool again);
   void pull(const Body& body, Makeup& makeup, std::uint32_t index, double h, double ahead);
   void strike(double h);
   bool strike(const Bouncy& bouncy, double h);
@@ -81,14 +82,13 @@ class ContactSolver {
   void warm_start_rolling();
   void resist_rolling();
   void move(const Scene& scene, double h);
-  void note_given(const Scene& scene);
   void give_again(const Scene& scene);
   void store(const Scene& scene);
   void finish(const Scene& scene);
 
   double parts_ = 1;  ///< how often the present step fits into the whole one
   std::vector<BodyRow> velocities_, starts_, unpushed_, displacements_;
-  std::vector<BodyRow> gifts_;  ///< by contacts, in the last sub-step
+  std::vector<BodyRow> gifts_;  ///< by contacts, in the last sub-step; only kept while blows come between
   std::vector<double> struck_at_;
   std::vector<ContactBlock> blocks_;
   std::vector<std::uint32_t> colors_, places_;
