@@ -164,3 +164,33 @@ TEST_CASE("what hangs heavier on a rope than its sub-steps can hold by positions
     CHECK(std::abs(fallen(firm)) < 1e-3);
   }
 }
+
+// An edge between masses of 1 kg acts with at most 4 passes times (1/2 kg) (1920/s)^2. A push by the corner of a cube
+// of 1 m makes it larger by 1/6 m^3 per kg: a quarter of 4 passes by (1920/s)^2 over that, times its volume of 1/6 m^3.
+TEST_CASE(
+    "edges and volumes that act with less than their stiffness are told, with how much, unless sub-steps resolve it") {
+  const auto told = [](double edges, double volume, std::optional<double> sub_step, SoftSolver solver) {
+    SoftSettings soft{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, .masses = {1, 1, 1, 1}};
+    for (std::uint32_t b = 1; b < 4; ++b)
+      for (std::uint32_t a = 0; a < b; ++a) soft.edges.push_back({.a = a, .b = b, .stiffness = edges});
+    // From the fourth, the first three run counter-clockwise.
+    if (volume > 0) soft.tetrahedra.push_back({.nodes = {0, 1, 2, 3}, .stiffness = volume});
+    soft.solver = solver;
+    soft.sub_step = sub_step;
+    StageDescription stage;
+    stage.softs.push_back({.name = "frame", .soft = soft});
+    const StageInspection found = inspect(stage, false);
+    return found.extremes.empty() ? std::string() : found.extremes[0].message;
+  };
+  const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+  const std::string of_edges = told(1e9, 0, {}, SoftSolver::positions);
+  CHECK(has(of_edges, "has edges of 1e+09 N/m that act with 7.3728e+06 N/m"));
+  // 1/1920 s by the root of how much too stiff they are
+  CHECK(has(of_edges, "sub-steps of less than 4.4721e-05 s"));
+  CHECK(told(1e9, 0, 4.47e-5, SoftSolver::positions).empty());
+  CHECK(told(7.3e6, 0, {}, SoftSolver::positions).empty());
+  CHECK(told(1e9, 0, {}, SoftSolver::springs).empty());
+  CHECK(has(told(1, 1e8, {}, SoftSolver::positions), "has volumes of 1e+08 Pa that act with 3.6864e+06 Pa"));
+  CHECK(told(1, 3.6e6, {}, SoftSolver::positions).empty());
+  CHECK(told(1, 1e8, {}, SoftSolver::springs).empty());
+}

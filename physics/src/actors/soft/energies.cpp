@@ -40,13 +40,16 @@ double volume_energy(const SoftBody& body) {
   };
   for (std::size_t i = 0; i < made.tetrahedra.size(); ++i) {
     if (body.gone.tetrahedra[i] != 0) continue;
-    const auto& [nodes, stiffness, rest] = made.tetrahedra[i];
-    add(stiffness / *rest, volume_of(x[nodes[0]], x[nodes[1]], x[nodes[2]], x[nodes[3]]) - *rest);
+    const SoftTetrahedron& solid = made.tetrahedra[i];
+    const auto& n = solid.nodes;
+    if (!std::isinf(solid.stiffness))
+      add(resolved_stiffness(made, solid, body.pace), volume_of(x[n[0]], x[n[1]], x[n[2]], x[n[3]]) - *solid.volume);
   }
-  for (std::size_t i = 0; i < made.enclosures.size(); ++i)
-    if (body.gone.enclosures[i] == 0)
-      add(made.enclosures[i].stiffness / *made.enclosures[i].volume,
-          enclosed_by(made.enclosures[i].triangles, x) - *made.enclosures[i].volume);
+  for (std::size_t i = 0; i < made.enclosures.size(); ++i) {
+    const SoftEnclosure& enclosure = made.enclosures[i];
+    if (body.gone.enclosures[i] == 0 && !std::isinf(enclosure.stiffness))
+      add(resolved_stiffness(made, enclosure, body.pace), enclosed_by(enclosure.triangles, x) - *enclosure.volume);
+  }
   return energy;
 }
 

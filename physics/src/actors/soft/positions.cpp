@@ -77,6 +77,10 @@ class Positions {
     bend_multipliers_.assign(made_.bends.size(), Vec3(0, 0, 0));
     solid_multipliers_.assign(made_.tetrahedra.size(), 0);
     enclosure_multipliers_.assign(made_.enclosures.size(), 0);
+    for (const SoftTetrahedron& solid : made_.tetrahedra)
+      solid_stiffness_.push_back(resolved_stiffness(made_, solid, step_.body.pace));
+    for (const SoftEnclosure& enclosure : made_.enclosures)
+      enclosure_stiffness_.push_back(resolved_stiffness(made_, enclosure, step_.body.pace));
   }
 
   /// A sub-step in which nodes pass their neighbors many times over says nothing of what holds them together, and
@@ -265,7 +269,7 @@ class Positions {
     double weights = 0;
     for (std::size_t k = 0; k < 4; ++k) weights += weight_[n[k]] * gradients[k].squaredNorm();
     if (!(weights > 0)) return;
-    const double soft = *solid.volume * compliance(solid.stiffness);
+    const double soft = compliance(solid_stiffness_[i]);
     const double volume = b.dot(c.cross(d)) / 6;
     double& multiplier = solid_multipliers_[i];
     const double change = (*solid.volume - volume - soft * multiplier) / (weights + soft);
@@ -289,7 +293,7 @@ class Positions {
     double weights = 0;
     for (std::size_t k = 0; k < p_.size(); ++k) weights += weight_[k] * gradients_[k].squaredNorm();
     if (!(weights > 0)) return;
-    const double soft = *enclosure.volume * compliance(enclosure.stiffness);
+    const double soft = compliance(enclosure_stiffness_[i]);
     double& multiplier = enclosure_multipliers_[i];
     const double change = (*enclosure.volume - volume - soft * multiplier) / (weights + soft);
     multiplier += change;
@@ -344,6 +348,7 @@ class Positions {
   std::vector<Vec3> pull_;      ///< by constraints, kg m
   std::vector<double> weight_;  ///< inverse masses; 0 of led nodes
   std::vector<double> edge_multipliers_, solid_multipliers_, enclosure_multipliers_;
+  std::vector<double> solid_stiffness_, enclosure_stiffness_;  ///< divided by the volume, as they act, Pa/m^3
   std::vector<Vec3> bend_multipliers_;
   std::vector<Chain> chains_;
   std::vector<Load> loads_;  ///< by node; empty if nothing hangs on any

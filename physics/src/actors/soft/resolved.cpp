@@ -19,6 +19,33 @@ double give(const SoftSettings& made, const SoftBend& bend) {
   return sum;
 }
 
+/// The same for a push that makes a volume larger, m^4/kg.
+double give(const SoftSettings& made, const SoftTetrahedron& solid) {
+  const auto& n = solid.nodes;
+  const std::vector<Vec3>& x = made.positions;
+  const Vec3 b = x[n[1]] - x[n[0]], c = x[n[2]] - x[n[0]], d = x[n[3]] - x[n[0]];
+  const Vec3 by_b = c.cross(d) / 6, by_c = d.cross(b) / 6, by_d = b.cross(c) / 6;
+  return (by_b + by_c + by_d).squaredNorm() / made.masses[n[0]] + by_b.squaredNorm() / made.masses[n[1]] +
+         by_c.squaredNorm() / made.masses[n[2]] + by_d.squaredNorm() / made.masses[n[3]];
+}
+double give(const SoftSettings& made, const SoftEnclosure& enclosure) {
+  std::vector<Vec3> gradients(made.positions.size(), Vec3(0, 0, 0));
+  const Vec3 origin = made.positions[enclosure.triangles[0][0]];
+  for (const auto& triangle : enclosure.triangles) {
+    const auto at = [&](std::size_t corner) -> Vec3 { return made.positions[triangle[corner % 3]] - origin; };
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      gradients[triangle[corner]] += at(corner + 1).cross(at(corner + 2)) / 6;
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < gradients.size(); ++k) sum += gradients[k].squaredNorm() / made.masses[k];
+  return sum;
+}
+
+/// A node of a volume has twice as many edges as one of a cloth, and tetrahedra besides: passes resolve less of each.
+double share_of_each(const SoftSettings& made) {
+  return made.tetrahedra.empty() ? 1 : 0.25;
+}
+
 bool is_chained(const SoftSettings& made) {
   std::vector<int> edges(made.masses.size(), 0);
   for (const SoftEdge& edge : made.edges)
@@ -33,18 +60,30 @@ bool passes_over_edges(const SoftBody& body) {
 }
 
 double resolved_stiffness(const SoftSettings& made, const SoftEdge& edge, double h) {
-  return std::min(edge.stiffness, *made.iterations / (give(made, edge) * h * h));
+  return std::min(edge.stiffness, share_of_each(made) * *made.iterations / (give(made, edge) * h * h));
 }
 
 Resolved resolved(const SoftBody& body, const SoftEdge& edge) {
   const SoftSettings& made = *body.made;
   return {resolved_stiffness(made, edge, body.pace),
-          std::min(edge.damping, *made.iterations / (give(made, edge) * body.pace))};
+          std::min(edge.damping, share_of_each(made) * *made.iterations / (give(made, edge) * body.pace))};
 }
 
 double resolved_stiffness(const SoftBody& body, const SoftBend& bend) {
   if (body.made->solver == SoftSolver::springs) return bend.stiffness;
   return std::min(bend.stiffness, *body.made->iterations / (give(*body.made, bend) * body.pace * body.pace));
+}
+
+double resolved_stiffness(const SoftSettings& made, const SoftTetrahedron& solid, double h) {
+  const double stiffness = solid.stiffness / *solid.volume;
+  if (made.solver == SoftSolver::springs) return stiffness;
+  return std::min(stiffness, share_of_each(made) * *made.iterations / (give(made, solid) * h * h));
+}
+
+double resolved_stiffness(const SoftSettings& made, const SoftEnclosure& enclosure, double h) {
+  const double stiffness = enclosure.stiffness / *enclosure.volume;
+  if (made.solver == SoftSolver::springs) return stiffness;
+  return std::min(stiffness, *made.iterations / (give(made, enclosure) * h * h));
 }
 
 int enough_iterations(const SoftSettings& made) {
@@ -53,8 +92,12 @@ int enough_iterations(const SoftSettings& made) {
   double stiffest = 0;
   if (!is_chained(made))
     for (const SoftEdge& edge : made.edges)
-      stiffest = std::max(stiffest, (edge.stiffness * h + edge.damping) * h * give(made, edge));
+      stiffest = std::max(stiffest, (edge.stiffness * h + edge.damping) * h * give(made, edge) / share_of_each(made));
   for (const SoftBend& bend : made.bends) stiffest = std::max(stiffest, bend.stiffness * h * h * give(made, bend));
+  for (const SoftTetrahedron& solid : made.tetrahedra)
+    stiffest = std::max(stiffest, solid.stiffness / *solid.volume * h * h * give(made, solid) / share_of_each(made));
+  for (const SoftEnclosure& enclosure : made.enclosures)
+    stiffest = std::max(stiffest, enclosure.stiffness / *enclosure.volume * h * h * give(made, enclosure));
   // One alone leaves more of what is half as stiff than two of what is twice as stiff.
   return stiffest <= 0.5 ? 1 : static_cast<int>(std::clamp(std::ceil(stiffest), 2.0, 4.0));
 }

@@ -134,16 +134,24 @@ class Finder {
 
   /// Infinite stiffness is no number that anybody expects to read off a stretch.
   void look_at_resolution(std::size_t soft, const SoftSettings& made, double h) {
-    if (!soft::passes_over_edges(soft::begun(made))) return;
-    for (const SoftEdge& edge : made.edges) {
-      const double acts = soft::resolved_stiffness(made, edge, h);
-      if (std::isinf(edge.stiffness) || !(edge.stiffness > acts)) continue;
+    const auto is_softer = [&](const std::string& what, double stiffness, const char* unit, double acts) {
+      if (std::isinf(stiffness) || !(stiffness > acts)) return false;
       tell(Part::soft, soft,
-           "has edges of " + brief_text(edge.stiffness) + " N/m that act with " + brief_text(acts) +
-               " N/m: by positions more takes sub-steps of less than " +
-               brief_text(h * std::sqrt(acts / edge.stiffness)) + " s, or more iterations; by springs any will do");
-      return;
-    }
+           "has " + what + " of " + brief_text(stiffness) + unit + " that act with " + brief_text(acts) + unit +
+               ": by positions more takes sub-steps of less than " + brief_text(h * std::sqrt(acts / stiffness)) +
+               " s, or more iterations; by springs any will do");
+      return true;
+    };
+    if (soft::passes_over_edges(soft::begun(made)))
+      for (const SoftEdge& edge : made.edges)
+        if (is_softer("edges", edge.stiffness, " N/m", soft::resolved_stiffness(made, edge, h))) return;
+    for (const SoftTetrahedron& solid : made.tetrahedra)
+      if (is_softer("volumes", solid.stiffness, " Pa", *solid.volume * soft::resolved_stiffness(made, solid, h)))
+        return;
+    for (const SoftEnclosure& enclosure : made.enclosures)
+      if (is_softer("a volume", enclosure.stiffness, " Pa",
+                    *enclosure.volume * soft::resolved_stiffness(made, enclosure, h)))
+        return;
   }
 
   /// What is too wide to be solved at once is left to conjugate gradients, which have an end.
