@@ -174,6 +174,12 @@ TEST_CASE("bodies that start in each other are noted, those side by side are not
   CHECK(has(deep, "starts 0.6 m deep in"));
   CHECK(has(deep, "at 0.5 m/s at most"));
   CHECK(notes_of(two_balls("[0, 1, 0]", still)).empty());
+  const auto parted = [](const std::string& separation) {
+    return notes_of(
+        two_balls("[0, 0.4, 0]", ", \"world\": {\"gravity\": [0, 0, 0], \"separation\": \"" + separation + "\"}"));
+  };
+  CHECK(has(parted("half"), "; they are moved apart at once"));
+  CHECK(has(parted("closest-point"), "; one of them is moved out at once"));
 }
 
 TEST_CASE("springs that the step cannot show and turns of more than half a turn in a step are noted") {

@@ -1,5 +1,6 @@
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/physics/stage/inspection.h>
+#include <tweenfall/physics/strategies.h>
 
 #include "document/fields/things.h"
 #include "document/forces/forces.h"
@@ -85,6 +86,13 @@ void note_joint_starts(Building& building, const StageInspection& found) {
   }
 }
 
+std::string way_apart(const WorldSettings& world) {
+  if (world.separation == Parting::soft)
+    return "; they are pushed apart, at " + brief_text(world.push_out_speed) + " m/s at most";
+  return world.separation == Parting::closest_point ? "; one of them is moved out at once"
+                                                    : "; they are moved apart at once";
+}
+
 }  // namespace
 
 void judge_stage(Building& building) {
@@ -95,8 +103,8 @@ void judge_stage(Building& building) {
   for (const StartOverlap& overlap : found.overlaps)
     building.problems.note(below(place_of_node(building, overlap.a), {"position"}),
                            json::in_quotes(nodes[overlap.a].name) + " starts " + brief_text(overlap.depth) +
-                               " m deep in " + json::in_quotes(nodes[overlap.b].name) + "; they are pushed apart, at " +
-                               brief_text(building.stage.world.push_out_speed) + " m/s at most");
+                               " m deep in " + json::in_quotes(nodes[overlap.b].name) +
+                               way_apart(building.stage.world));
   note_joint_starts(building, found);
   const json::Value world = place_of_world(building);
   for (const StiffSpring& stiff : found.stiff_springs)
