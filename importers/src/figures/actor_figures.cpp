@@ -15,11 +15,6 @@ constexpr std::size_t most_nodes = 220;   // drawn of one soft body
 constexpr std::size_t longest_line = 24;  // nodes drawn of a line
 constexpr double straight_on = 0.5;       // cosine of the greatest turn at which a line continues
 
-/// As seen from the side, in meters, y downward.
-Vec2 seen_from_side(const Vec3& point, int across) {
-  return {point[across], -point.y()};
-}
-
 /// The edges of a surface, those of its hem first, without diagonals of cells: edges that are the longest in each of
 /// their triangles. Without a surface, all edges.
 std::vector<std::size_t> drawn_edges(const SoftSettings& soft, std::size_t& hem) {
@@ -107,7 +102,18 @@ std::vector<Line> lines_of(const SoftSettings& soft, const std::vector<std::size
   return lines;
 }
 
-/// Lines of at most about `most_nodes` nodes.
+/// All lines of the hem, and every few of the others: with about `most` nodes together.
+std::vector<Line> some_of(std::vector<Line> lines, std::size_t hem_lines, std::size_t most) {
+  std::size_t of_hem = 0, of_others = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) (i < hem_lines ? of_hem : of_others) += lines[i].size();
+  const std::size_t room = most > of_hem ? most - of_hem : 1;
+  const std::size_t apart = std::max<std::size_t>(1, (of_others + room - 1) / room);
+  std::vector<Line> shown;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (i < hem_lines || (i - hem_lines) % apart == apart / 2) shown.push_back(std::move(lines[i]));
+  return shown;
+}
+
 std::vector<Line> shown_lines(const SoftSettings& soft) {
   std::size_t hem = 0, hem_lines = 0;
   const std::vector<std::size_t> edges = drawn_edges(soft, hem);
@@ -120,32 +126,27 @@ std::vector<Line> shown_lines(const SoftSettings& soft) {
     fewer.push_back(line.back());
     line = std::move(fewer);
   }
-  std::size_t of_hem = 0, of_others = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) (i < hem_lines ? of_hem : of_others) += lines[i].size();
-  const std::size_t room = most_nodes > of_hem ? most_nodes - of_hem : 1;
-  const std::size_t apart = std::max<std::size_t>(1, (of_others + room - 1) / room);
-  std::vector<Line> shown;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    if (i < hem_lines || (i - hem_lines) % apart == apart / 2) shown.push_back(std::move(lines[i]));
-  return shown;
+  return some_of(std::move(lines), hem_lines, most_nodes);
 }
 
-/// For bodies that tear: each edge is a line of its own, which shrinks to a point when it tears.
-Figure tearing_figure(const SoftRecord& record, const SoftSettings& soft, int across) {
+/// For bodies that tear: the same lines, but each edge is one of its own, which shrinks to a point when it tears.
+Figure tearing_figure(const SoftRecord& record, const SoftSettings& soft, Facing facing) {
   Figure figure;
-  std::size_t hem = 0;
+  std::size_t hem = 0, hem_lines = 0;
   const std::vector<std::size_t> edges = drawn_edges(soft, hem);
-  const std::size_t apart = std::max<std::size_t>(1, (edges.size() + most_nodes - 1) / most_nodes);
+  std::map<Ends, std::size_t> between;
+  for (const std::size_t edge : edges) between.emplace(std::minmax(soft.edges[edge].a, soft.edges[edge].b), edge);
   std::vector<std::size_t> shown;
-  for (std::size_t i = 0; i < edges.size(); i += apart) shown.push_back(edges[i]);
+  for (const Line& line : some_of(lines_of(soft, edges, hem, hem_lines), hem_lines, most_nodes))
+    for (std::size_t i = 1; i < line.size(); ++i) shown.push_back(between.at(std::minmax(line[i - 1], line[i])));
   for (std::size_t i = 0; i < shown.size(); ++i) figure.starts.push_back(2 * i);
   for (std::size_t frame = 0; frame < record.positions.size(); ++frame) {
     std::vector<Vec2>& points = figure.points.emplace_back();
     for (const std::size_t edge : shown) {
       const auto& nodes = record.positions[frame];
       const bool torn = frame >= record.torn_at[edge];
-      points.push_back(seen_from_side(nodes[soft.edges[edge].a], across));
-      points.push_back(seen_from_side(nodes[torn ? soft.edges[edge].a : soft.edges[edge].b], across));
+      points.push_back(flattened(nodes[soft.edges[edge].a], facing));
+      points.push_back(flattened(nodes[torn ? soft.edges[edge].a : soft.edges[edge].b], facing));
     }
   }
   return figure;
@@ -154,7 +155,7 @@ Figure tearing_figure(const SoftRecord& record, const SoftSettings& soft, int ac
 }  // namespace
 
 void add_soft_figures(std::vector<Figure>& list, const Recording& recording, const StageDescription& stage,
-                      int across) {
+                      Facing facing) {
   if (recording.softs.size() != stage.softs.size()) return;
   for (std::size_t i = 0; i < recording.softs.size(); ++i) {
     const SoftRecord& record = recording.softs[i];
@@ -164,7 +165,7 @@ void add_soft_figures(std::vector<Figure>& list, const Recording& recording, con
         std::ranges::any_of(record.torn_at, [&](std::size_t frame) { return frame < recording.times.size(); });
     Figure figure;
     if (tears) {
-      figure = tearing_figure(record, soft, across);
+      figure = tearing_figure(record, soft, facing);
     } else {
       const std::vector<Line> lines = shown_lines(soft);
       std::size_t count = 0;
@@ -175,7 +176,7 @@ void add_soft_figures(std::vector<Figure>& list, const Recording& recording, con
       for (const std::vector<Vec3>& nodes : record.positions) {
         std::vector<Vec2>& points = figure.points.emplace_back();
         for (const Line& line : lines)
-          for (const std::uint32_t node : line) points.push_back(seen_from_side(nodes[node], across));
+          for (const std::uint32_t node : line) points.push_back(flattened(nodes[node], facing));
       }
     }
     figure.kind = Figure::Kind::lines;
@@ -187,7 +188,7 @@ void add_soft_figures(std::vector<Figure>& list, const Recording& recording, con
 }
 
 void add_wheel_figures(std::vector<Figure>& list, const Recording& recording, const StageDescription& stage,
-                       int across) {
+                       Facing facing) {
   for (const VehicleRecord& vehicle : recording.vehicles) {
     const auto described = std::ranges::find(stage.vehicles, vehicle.name, &VehicleDescription::name);
     if (described == stage.vehicles.end() || vehicle.chassis >= recording.nodes.size() ||
@@ -198,11 +199,23 @@ void add_wheel_figures(std::vector<Figure>& list, const Recording& recording, co
       figure.kind = Figure::Kind::ball;
       figure.node = vehicle.chassis;
       figure.name = vehicle.name + "/" + vehicle.wheels[i];
-      figure.radius = described->wheels[i].wheel.radius;
+      const double radius = described->wheels[i].wheel.radius;
+      figure.radius = radius;
+      // From above one sees its tread.
+      if (facing == Facing::above) {
+        figure.kind = Figure::Kind::stick;
+        figure.radius = 0.3 * radius;
+      }
       for (const std::vector<StageWheel>& wheels : vehicle.frame) {
         const Pose& pose = wheels.at(i).pose;
-        figure.points.push_back({seen_from_side(pose.position, across),
-                                 seen_from_side(pose.position + pose.rotation * Vec3(figure.radius, 0, 0), across)});
+        if (facing == Facing::above) {
+          const Vec3 ahead =
+              (radius - figure.radius) * (pose.rotation * Vec3(0, 0, 1)).cross(Vec3(0, 1, 0)).stableNormalized();
+          figure.points.push_back({flattened(pose.position - ahead, facing), flattened(pose.position + ahead, facing)});
+          continue;
+        }
+        figure.points.push_back(
+            {flattened(pose.position, facing), flattened(pose.position + pose.rotation * Vec3(radius, 0, 0), facing)});
       }
       list.push_back(std::move(figure));
     }

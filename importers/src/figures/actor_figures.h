@@ -6,9 +6,10 @@
 
 namespace tweenfall::figures {
 
-/// In meters, y downward, not yet scaled to the picture.
-void add_soft_figures(std::vector<Figure>& list, const Recording& recording, const StageDescription& stage, int across);
+/// In meters, downward, not yet scaled to the picture.
+void add_soft_figures(std::vector<Figure>& list, const Recording& recording, const StageDescription& stage,
+                      Facing facing);
 void add_wheel_figures(std::vector<Figure>& list, const Recording& recording, const StageDescription& stage,
-                       int across);
+                       Facing facing);
 
 }  // namespace tweenfall::figures

@@ -123,26 +123,21 @@ std::vector<Vec3> box_around(const Mesh& mesh, const std::vector<double>& weight
   return corners;
 }
 
-/// As seen from the side, in meters, y downward.
-Vec2 flattened(const Vec3& point, int across) {
-  return {point[across], -point.y()};
-}
-
-void place(Figure& figure, const NodeRecord& node, const std::vector<Vec3>& points, int across) {
+void place(Figure& figure, const NodeRecord& node, const std::vector<Vec3>& points, Facing facing) {
   for (const WorldMotion& world : node.world) {
     std::vector<Vec2>& placed = figure.points.emplace_back();
-    for (const Vec3& point : points) placed.push_back(flattened(world.point(point), across));
+    for (const Vec3& point : points) placed.push_back(flattened(world.point(point), facing));
   }
 }
 
-void place_mesh(Figure& figure, const NodeRecord& node, const Mesh& mesh, int across) {
+void place_mesh(Figure& figure, const NodeRecord& node, const Mesh& mesh, Facing facing) {
   const bool molded = !mesh.morphs.empty() && !node.weights.empty();
   std::vector<Vec3> corners = box_around(mesh, mesh.rest_weights);
   for (std::size_t frame = 0; frame < node.world.size(); ++frame) {
     if (molded && (frame == 0 || node.weights[frame] != node.weights[frame - 1]))
       corners = box_around(mesh, node.weights[frame]);
     std::vector<Vec2>& placed = figure.points.emplace_back();
-    for (const Vec3& corner : corners) placed.push_back(flattened(node.world[frame].point(corner), across));
+    for (const Vec3& corner : corners) placed.push_back(flattened(node.world[frame].point(corner), facing));
   }
 }
 
@@ -158,12 +153,12 @@ struct Rectangle {
   [[nodiscard]] bool empty() const { return !(low.x() <= high.x()); }
 };
 
-std::vector<Rectangle> rectangles(const std::vector<Figure>& list, const Recording& recording, int across) {
+std::vector<Rectangle> rectangles(const std::vector<Figure>& list, const Recording& recording, Facing facing) {
   std::vector<Rectangle> all;
   for (const ParticlesRecord& particles : recording.particles)
     for (const StageParticles& frame : particles.frame) {
       Rectangle around;
-      for (const Vec3& place : frame.positions) around.add(flattened(place, across));
+      for (const Vec3& place : frame.positions) around.add(flattened(place, facing));
       if (!around.empty()) all.push_back(around);
     }
   for (const Figure& figure : list)
@@ -202,6 +197,56 @@ Rectangle around_most(const std::vector<Rectangle>& all) {
   return (whole.high - whole.low).maxCoeff() > far * size ? most : whole;
 }
 
+/// How far something gets along each axis, and the area that its way fills as seen from each side, if it is not a line.
+struct Way {
+  Vec3 range{0, 0, 0};  ///< m
+  double front = 0, side = 0, above = 0;
+
+  void add(std::size_t count, const auto& at) {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low, mean(0, 0, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 place = at(i);
+      if (!place.allFinite()) return;
+      low = low.cwiseMin(place);
+      high = high.cwiseMax(place);
+      mean += place / static_cast<double>(count);
+    }
+    if (count == 0) return;
+    Mat3 spread = Mat3::Zero();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 off = at(i) - mean;
+      spread += off * off.transpose() / static_cast<double>(count);
+    }
+    const auto area = [&spread](int a, int b) {
+      return std::sqrt(std::max(0.0, spread(a, a) * spread(b, b) - spread(a, b) * spread(a, b)));
+    };
+    range = range.cwiseMax(high - low);
+    front = std::max(front, area(0, 1));
+    side = std::max(side, area(2, 1));
+    above = std::max(above, area(0, 2));
+  }
+};
+
+/// From where to look at what is a line from the front: above, if nothing rises or falls by much; otherwise, where ways
+/// are seen edge-on, from where they fill more.
+/// @param size  of the picture, m: of what moves by little of it nothing is seen
+Facing facing_of_ways(const Recording& recording, double size) {
+  constexpr double flat = 0.1, seen = 0.05;
+  Way way;
+  for (const NodeRecord& node : recording.nodes)
+    way.add(node.world.size(), [&node](std::size_t frame) { return node.world[frame].motion.pose.position; });
+  for (const SoftRecord& soft : recording.softs)
+    for (std::size_t node = 0; !soft.positions.empty() && node < soft.positions.front().size(); ++node)
+      way.add(soft.positions.size(), [&](std::size_t frame) { return soft.positions[frame][node]; });
+  for (const ParticlesRecord& particles : recording.particles)
+    for (const StageParticles& frame : particles.frame)
+      way.add(frame.positions.size(), [&frame](std::size_t i) { return frame.positions[i]; });
+  const double across = std::min(way.range.x(), way.range.z()), most = std::max(way.side, way.above);
+  if (across > seen * size && way.range.y() < flat * across) return Facing::above;
+  if (way.front > flat * most || std::sqrt(most) < seen * size) return Facing::front;
+  return way.above >= way.side ? Facing::above : Facing::side;
+}
+
 bool ever_apart(const Recording& recording, std::size_t a, std::size_t b) {
   for (std::size_t frame = 0; frame < recording.times.size(); ++frame)
     if (recording.nodes[a].world[frame].motion.pose.position != recording.nodes[b].world[frame].motion.pose.position)
@@ -226,7 +271,7 @@ namespace {
 
 /// The outline of a skinned mesh whose joints make no bones to draw.
 Figure skinned_figure(const Recording& recording, const StageDescription& stage, const MeshInstance& instance,
-                      const std::vector<std::size_t>& record_of, int across) {
+                      const std::vector<std::size_t>& record_of, Facing facing) {
   const Mesh& mesh = stage.meshes[instance.mesh];
   Figure figure;
   figure.kind = Figure::Kind::hull;
@@ -242,7 +287,7 @@ Figure skinned_figure(const Recording& recording, const StageDescription& stage,
            &stage.skins[instance.skin], instance.node, world, vertices);
     std::vector<Vec2> points(1, Vec2::Zero());
     for (const Vec3& vertex : vertices) {
-      points.push_back(flattened(vertex, across));
+      points.push_back(flattened(vertex, facing));
       points.front() += points.back() / static_cast<double>(vertices.size());
     }
     figure.points.push_back(outlined(points, vertices.size()));
@@ -250,7 +295,7 @@ Figure skinned_figure(const Recording& recording, const StageDescription& stage,
   return figure;
 }
 
-std::vector<Figure> flat_figures(const Recording& recording, const StageDescription& stage, int across) {
+std::vector<Figure> flat_figures(const Recording& recording, const StageDescription& stage, Facing facing) {
   const std::vector<const NodeDescription*> described = descriptions(recording, stage);
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < recording.nodes.size(); ++i) index_of.emplace(recording.nodes[i].name, i);
@@ -269,7 +314,7 @@ std::vector<Figure> flat_figures(const Recording& recording, const StageDescript
     figure.fixed = described[i]->body->fixed;
     const double scale = std::cbrt(std::abs(recording.nodes[i].world.front().linear.determinant()));
     const std::vector<Vec3> points = outline(described[i]->body->shape, figure, scale);
-    place(figure, recording.nodes[i], points, across);
+    place(figure, recording.nodes[i], points, facing);
     if (figure.kind == Figure::Kind::hull)
       for (std::vector<Vec2>& placed : figure.points) placed = outlined(placed, figure.vertices);
     list.push_back(std::move(figure));
@@ -282,7 +327,7 @@ std::vector<Figure> flat_figures(const Recording& recording, const StageDescript
       continue;
     Figure figure;
     figure.node = node;
-    place_mesh(figure, recording.nodes[node], stage.meshes[instance.mesh], across);
+    place_mesh(figure, recording.nodes[node], stage.meshes[instance.mesh], facing);
     list.push_back(std::move(figure));
     drawn[node] = true;
   }
@@ -310,7 +355,7 @@ std::vector<Figure> flat_figures(const Recording& recording, const StageDescript
       std::vector<Vec2>& placed = figure.points.emplace_back();
       for (const std::size_t each : ends)
         for (const std::size_t end : {recording.nodes[each].parent, each})
-          placed.push_back(flattened(recording.nodes[end].world[frame].motion.pose.position, across));
+          placed.push_back(flattened(recording.nodes[end].world[frame].motion.pose.position, facing));
     }
     list.push_back(std::move(figure));
   }
@@ -325,10 +370,10 @@ std::vector<Figure> flat_figures(const Recording& recording, const StageDescript
     if (joints.empty() || std::any_of(joints.begin(), joints.end(), has_bones) ||
         stage.meshes[instance.mesh].positions.empty())
       continue;
-    list.push_back(skinned_figure(recording, stage, instance, record_of, across));
+    list.push_back(skinned_figure(recording, stage, instance, record_of, facing));
   }
-  add_wheel_figures(list, recording, stage, across);
-  add_soft_figures(list, recording, stage, across);
+  add_wheel_figures(list, recording, stage, facing);
+  add_soft_figures(list, recording, stage, facing);
   return list;
 }
 
@@ -344,18 +389,38 @@ void into_picture(std::vector<Figure>& list, const SideView& view) {
 
 }  // namespace
 
+Vec2 flattened(const Vec3& point, Facing facing) {
+  switch (facing) {
+    case Facing::front:
+      return {point.x(), -point.y()};
+    case Facing::side:
+      return {point.z(), -point.y()};
+    case Facing::above:
+      return {point.x(), point.z()};
+  }
+  return {0, 0};
+}
+
 SideScene side_scene(const Recording& recording, const StageDescription& stage, double left, double top, double width,
                      double height) {
   SideScene scene;
-  scene.figures = flat_figures(recording, stage, 0);
-  Rectangle around = around_most(rectangles(scene.figures, recording, 0));
   SideView& view = scene.view;
-  std::vector<Figure> other = flat_figures(recording, stage, 2);
-  const Rectangle around_other = around_most(rectangles(other, recording, 2));
-  if (!around.empty() && around_other.high.x() - around_other.low.x() > 1.5 * (around.high.x() - around.low.x())) {
-    view.across = 2;
-    scene.figures = std::move(other);
-    around = around_other;
+  scene.figures = flat_figures(recording, stage, view.facing);
+  Rectangle around = around_most(rectangles(scene.figures, recording, view.facing));
+  const Facing facing =
+      around.empty() ? Facing::front : facing_of_ways(recording, (around.high - around.low).maxCoeff());
+  if (facing != Facing::front) {
+    view.facing = facing;
+    scene.figures = flat_figures(recording, stage, facing);
+    around = around_most(rectangles(scene.figures, recording, facing));
+  } else {
+    std::vector<Figure> other = flat_figures(recording, stage, Facing::side);
+    const Rectangle around_other = around_most(rectangles(other, recording, Facing::side));
+    if (!around.empty() && around_other.high.x() - around_other.low.x() > 1.5 * (around.high.x() - around.low.x())) {
+      view.facing = Facing::side;
+      scene.figures = std::move(other);
+      around = around_other;
+    }
   }
   if (around.empty()) {
     around.low = Vec2(-1, -1);

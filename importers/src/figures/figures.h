@@ -11,15 +11,26 @@
 namespace tweenfall::figures {
 
 /// From the world to the picture.
+/// Where a picture is seen from.
+enum class Facing {
+  front,  ///< +z: x runs to the right, y upward
+  side,   ///< -x: z runs to the right, y upward
+  above,  ///< +y: x runs to the right, z downward
+};
+
+/// As seen from there, in meters, downward.
+[[nodiscard]] Vec2 flattened(const Vec3& point, Facing facing);
+
 struct SideView {
-  int across = 0;                ///< the world axis that runs to the right: 0 (seen from +z) or 2 (seen from -x)
+  Facing facing = Facing::front;
   double scale = 1;              ///< px/m
   double left = 0, top = 0;      ///< px
   double low = 0, high = 0;      ///< world coordinates at the picture's left edge and at its upper edge, m
   double width = 0, height = 0;  ///< px
 
   [[nodiscard]] Vec2 place(const Vec3& point) const {
-    return {left + (point[across] - low) * scale, top + (high - point.y()) * scale};
+    const Vec2 flat = flattened(point, facing);
+    return {left + (flat.x() - low) * scale, top + (high + flat.y()) * scale};
   }
 };
 
@@ -52,7 +63,8 @@ struct SideScene {
 
 /// Soft bodies, wheels, bodies that are not planes, meshes without skin as their boxes, and one stick figure for each
 /// skin and for each tree of other nodes without bodies and meshes; in a view that contains all of them at all times,
-/// at most `width` by `height` px with the upper left corner at (left, top). Things that fly off disproportionately far
+/// at most `width` by `height` px with the upper left corner at (left, top). It is seen from +z, or
+/// from -x or above where what moves is a line from there. Things that fly off disproportionately far
 /// are ignored.
 [[nodiscard]] SideScene side_scene(const Recording& recording, const StageDescription& stage, double left, double top,
                                    double width, double height);

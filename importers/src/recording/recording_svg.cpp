@@ -136,7 +136,7 @@ bool draw_ground(Drawing& drawing, const StageDescription& stage) {
     if (!plane) continue;
     const WorldMotion& world = drawing.recording.nodes[i].world.front();
     const Vec3 normal = world.motion.pose.rotation * (described[i]->body->shape.offset.rotation * plane->normal);
-    const Vec2 up(normal[view.across], -normal.y());
+    const Vec2 up = figures::flattened(normal, view.facing);
     if (up.squaredNorm() < 0.5) continue;  // a wall that faces us
     const Vec2 out = up.normalized(), along(-out.y(), out.x());
     const Vec2 on = view.place(world.point(described[i]->body->shape.offset.position + plane->normal * plane->offset));

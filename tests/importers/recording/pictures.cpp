@@ -97,6 +97,31 @@ TEST_CASE("the moving picture's keyframes follow a parabola within the error it 
   }
 }
 
+// A ball on a circle of 2 m, about a point that draws it.
+TEST_CASE("an orbit is drawn round, upright and level") {
+  for (const Vec3& along : {Vec3(0, 2, 0), Vec3(0, 0, 2)}) {
+    StageDescription stage;
+    stage.world.gravity = Vec3(0, 0, 0);
+    stage.nodes.push_back(
+        {.name = "planet",
+         .rest = {.position = Vec3(2, 0, 0)},
+         .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 1.0, .twist = {along, Vec3(0, 0, 0)}}});
+    stage.forces.push_back({.force = Attractor{.acceleration = 8}});
+    Stage run(stage);
+    const std::string svg = recording_svg(record(run, 6.4, 60), stage);
+    const std::size_t circle = svg.find("<circle");
+    REQUIRE(circle != std::string::npos);
+    const auto way = [&](const char* axis) {
+      const std::size_t at = svg.find(axis, circle);
+      REQUIRE(at != std::string::npos);
+      const std::vector<double> values = list(attribute(svg, at, "values"));
+      return *std::max_element(values.begin(), values.end()) - *std::min_element(values.begin(), values.end());
+    };
+    CHECK(way("attributeName=\"cx\"") > 100);
+    CHECK(way("attributeName=\"cx\"") == doctest::Approx(way("attributeName=\"cy\"")).epsilon(0.02));
+  }
+}
+
 TEST_CASE("a moving picture in which nothing can be seen says so, and one with a ground alone does not") {
   StageDescription stage;
   stage.nodes.push_back({.name = "nowhere"});

@@ -44,10 +44,10 @@ void check_drawable(const Recording& recording, const StageDescription& stage);
 /// ("name:number", which it keeps for its life, with position and velocity); columns that do not apply are empty.
 [[nodiscard]] std::string recording_csv(const Recording& recording);
 
-/// The recording as animated SVG (SMIL, no script), seen from the side: bodies as outlines in the
-/// color of their owner, skeletons as stick figures, trails, and a time bar with the hand-offs. Keyframes are within
-/// 0.4 px of the recording; where that takes more than 280 kB, the error is doubled until it fits, up to 25.6 px. A
-/// comment in the file states the error.
+/// The recording as animated SVG (SMIL, no script), seen from the side, or from above where what moves would be a
+/// line: bodies as outlines in the color of their owner, skeletons as stick figures, trails, and a
+/// time bar with the hand-offs. Keyframes are within 0.4 px of the recording; where that takes more than 280 kB, the
+/// error is doubled until it fits, up to 25.6 px. A comment in the file states the error.
 [[nodiscard]] std::string recording_svg(const Recording& recording, const StageDescription& stage);
 
 /// One self-contained page: 3-D view, play, scrub, step back, timeline with key lanes, curves of the chosen node,
