@@ -45,7 +45,7 @@ std::string graph_svg(std::span<const GraphDescription> graphs) {
     for (const GraphPose& pose : graph.poses)
       if (const auto* machine = std::get_if<MachinePose>(&pose.operation)) {
         const MachinePicture picture(*machine);
-        draw_heading(svg, top + 14, "14", "machine " + pose.name);
+        draw_heading(svg, top + 30, "14", "machine " + pose.name);
         picture.draw(svg, graph_margin, top + graph_heading);
         top += graph_heading + picture.height();
       }
