@@ -195,7 +195,8 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
     if (sub_step == 0 && passes_on) weigh_jointed();
     follow_spins(bodies);
-    if (bouncy_ || passes_on) find_meetings(h);
+    const bool blows = passes_on && meets_;
+    if (bouncy_ || blows) find_meetings(h);
     // Joints have the last word: what a contact then lacks, the next sub-step supplies.
     for (int k = 0; k < softening; ++k) {
       soft.note = k + 1 == softening;
@@ -228,7 +229,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     if (!joints_.empty()) tame_jointed(bodies, h);
     // A rope that only the last pass tightened also pulled at both ends.
     joints_.each_acting([this](std::uint32_t a, std::uint32_t b) { paces_[a].touched = paces_[b].touched = true; });
-    if (!joints_.empty()) end_blows(passes_on);
+    if (!joints_.empty()) end_blows(blows);
     holds_.add_up();
     bound_spins(bodies, h);
   }

@@ -195,6 +195,7 @@ class BlockSolver {
   JointedSpins spins_;                ///< empty if there are no joints
   IslandHolds holds_;
   bool bouncy_ = false;      ///< some contact has restitution
+  bool meets_ = false;       ///< some contact is an impact
   bool conveyed_ = false;    ///< some surface moves
   bool driven_ = false;      ///< a drive holds some body
   std::vector<char> stale_;  ///< by part of the bodies: one of them has turned too far

@@ -98,7 +98,7 @@ struct BallBlock {
 /// When contacts meet: see Closing.
 struct MeetingRow {
   Lanes pull, tremble;
-  Lanes heeded;  ///< 1 if something follows when they meet: they spring back, or joints pass on the blow
+  Lanes heeded;  ///< 1 if something follows when they meet: they spring back, or joints pass on their blow
 };
 
 /// How soft an overlapping contact is in one or more passes: the same in all lanes.

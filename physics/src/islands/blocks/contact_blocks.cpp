@@ -304,7 +304,7 @@ void ContactBlocks::fill_ball(std::size_t ball, int lane, ContactConstraint& con
   block.base[lane] = point.start_gap;
   block.impulse[lane] = ratio * point.kept_normal;
   put(block.friction, lane, ratio * (point.kept_friction - normal * normal.dot(point.kept_friction)));
-  put(ball_meetings[ball], lane, closing, contact.restitution > 0 || a.jointed || b.jointed);
+  put(ball_meetings[ball], lane, closing, contact.restitution > 0 || (contact.impact && (a.jointed || b.jointed)));
   ball_origins[ball][static_cast<std::size_t>(lane)] = &contact;
 }
 
@@ -328,7 +328,7 @@ void ContactBlocks::fill(std::size_t index, int lane, ContactConstraint& contact
   block.inverse_moment_a[lane] = a.inverse_moment;
   block.inverse_moment_b[lane] = b.inverse_moment;
   block.coefficient[lane] = contact.friction;
-  put(meetings[index], lane, closing, contact.restitution > 0 || a.jointed || b.jointed);
+  put(meetings[index], lane, closing, contact.restitution > 0 || (contact.impact && (a.jointed || b.jointed)));
   block.hard[lane] = contact.impact || a.pulled || b.pulled ? -1 : 0;
   const double ratio = contact.kept_step > h ? h / contact.kept_step : 1;
   block.twist[lane] = block.central() ? ratio * contact.kept_twist : 0;

@@ -109,7 +109,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   uneven_.clear();
   rebounds_.clear();  // of the island before
   led_.clear();
-  bouncy_ = conveyed_ = any_stale_ = driven_ = false;
+  bouncy_ = meets_ = conveyed_ = any_stale_ = driven_ = false;
   for (std::uint32_t i = 1; i < count; ++i) {
     conveyed_ = conveyed_ || traits_[i].conveys;
     driven_ = driven_ || traits_[i].driven;
@@ -153,6 +153,7 @@ void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const st
   });
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     bouncy_ = bouncy_ || marks_[i].springs_back;
+    meets_ = meets_ || marks_[i].impact;
     if (marks_[i].impact) paces_[places_[contacts[i]->a]].impact = paces_[places_[contacts[i]->b]].impact = true;
   }
 }

@@ -72,7 +72,7 @@ void BlockSolver::find_meetings(const Rows& rows, std::size_t first, double h, M
     const MeetingRow& meeting = ball ? contacts_.ball_meetings[ball_index] : contacts_.meetings[index];
     const std::uint32_t end_a = ball ? contacts_.balls[ball_index].a[lane] : contacts_.blocks[index].a[lane];
     const std::uint32_t end_b = ball ? contacts_.balls[ball_index].b[lane] : contacts_.blocks[index].b[lane];
-    const bool jointed = bodies_[end_a].jointed || bodies_[end_b].jointed;
+    const bool jointed = contact.impact && (bodies_[end_a].jointed || bodies_[end_b].jointed);
     const auto meet = [&](std::uint32_t k, double closing, double gap) {
       const auto [time, speed] = contacts::meeting_of(gap, closing, meeting.pull[lane], h);
       if (!(speed > meeting.tremble[lane])) return;
