@@ -194,14 +194,16 @@ void FigureGroup::keep_impulses(const Lanes& kept) {
     if (joint.writing == Writing::by_kind) continue;
     for (std::size_t i = 0; i < joint.count; ++i) {
       Lanes& impulses = frames_[place].impulses[joint.sources[i]];
-      const Lanes& now = rows_[most_rows * place + i].impulse;
-      // Adding 0 turns -0 into 0, so that other lanes do not show in the result.
+      const FigureRow& row = rows_[most_rows * place + i];
+      // Adding 0 turns -0 into 0, and what a lane has no row for gets 0, so that other lanes do not show in the result.
       if (all) {
-        for (int lane = 0; lane < lane_count; ++lane) impulses[lane] = now[lane] + 0.0;
-      } else {
-        for (int lane = 0; lane < lane_count; ++lane)
-          impulses[lane] =
-              (kept[lane] == 1 ? now[lane] : impulses[lane] + kept[lane] * (now[lane] - impulses[lane])) + 0.0;
+        for (int lane = 0; lane < lane_count; ++lane) impulses[lane] = row.impulse[lane] + 0.0;
+        continue;
+      }
+      for (int lane = 0; lane < lane_count; ++lane) {
+        const double now = row.impulse[lane] + 0.0;
+        const bool wholly = kept[lane] == 1 || row.present[lane] == 0;
+        impulses[lane] = wholly ? now : impulses[lane] + kept[lane] * (now - impulses[lane]);
       }
     }
   }

@@ -222,23 +222,24 @@ struct FigureWork : FigureWriting<Register> {
     Number live = used_of(figures);
     Number again = live;
     admit(figures, live, moving);
+    Number ending = nothing();  // lanes that are solved for the last time, each after as many rounds as it needs
     bool finished = false;
     for (int round = 0;; ++round) {
       factor(figures);
       const Number bounded = solve_in(figures, again, moving);
-      if (finished) {
-        if (const Number lost = led_astray(figures, again, moving); any(lost)) begin_anew(figures, lost, moving);
-        break;
-      }
+      if (any(ending))
+        if (const Number lost = led_astray(figures, ending, moving); any(lost)) begin_anew(figures, lost, moving);
+      if (finished) break;
       Number changed;
       if (round == most_rounds) {
         // Rows that hold have the last word.
-        changed = again = dismiss(figures, live, true);
+        changed = again = ending = dismiss(figures, live, true);
         finished = true;
       } else {
         changed = dismiss(figures, live, false);
         changed = greater(changed, admit(figures, live, moving));
         again = moving ? changed : greater(changed, live * bounded);
+        ending = again - again * changed;
         finished = !any(changed);
       }
       if (!any(again)) break;

@@ -130,6 +130,23 @@ TEST_CASE("a hundred ragdolls fall on each other, and their joints hardly open")
   });
 }
 
+TEST_CASE("a hundred ragdolls fall alike with one thread and with two, whoever is solved beside whom") {
+  with_scene("ragdolls100", [](test::Scene& scene) {
+    World shared = scene.world;
+    shared.set_executor(std::make_shared<ThreadPool>(2));
+    bool alike = true;
+    for (int i = 0; i < 110 && alike; ++i) {
+      scene.world.step(1.0 / 60);
+      shared.step(1.0 / 60);
+      for (const BodyId body : scene.bodies)
+        alike = alike && scene.world.twist(body).linear == shared.twist(body).linear &&
+                scene.world.twist(body).angular == shared.twist(body).angular;
+      CAPTURE(i);
+      CHECK(alike);
+    }
+  });
+}
+
 TEST_CASE("five thousand balls fall into a box and overlap by 24 mm at most") {
   with_scene("spheres5000", [](test::Scene& scene) {
     double most = 0;
