@@ -343,53 +343,6 @@ struct FigureWork : FigureWriting<Register> {
       (Vector(joint.turn) + turn).put(joint.turn);
     }
   }
-
-  TWEENFALL_LANES static void respond(Figures& figures, FigurePush& push) {
-    factor(figures);
-    for (std::uint32_t i = 0; i < figures.body_count; ++i) {
-      no_vector().put(figures.bodies[i].linear);
-      no_vector().put(figures.bodies[i].angular);
-    }
-    const Vector along = push.along, turn = push.turn;
-    for (int lane = 0; lane < figures.used; ++lane) {
-      FigureBody& body = figures.bodies[push.bodies[static_cast<std::size_t>(lane)]];
-      const Vector pushed = Number(body.inverse_mass) * along;
-      const Vector spun = body.inverse_inertia * turn;
-      Lanes3 linear, angular;
-      pushed.put(linear);
-      spun.put(angular);
-      body.linear.x[lane] = linear.x[lane];
-      body.linear.y[lane] = linear.y[lane];
-      body.linear.z[lane] = linear.z[lane];
-      body.angular.x[lane] = angular.x[lane];
-      body.angular.y[lane] = angular.y[lane];
-      body.angular.z[lane] = angular.z[lane];
-    }
-    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
-      const FigureJoint& joint = figures.joints[place];
-      const FigureRow* rows = rows_of(figures, place);
-      Lanes* values = figures.values + joint.value;
-      const Ends ends = ends_of(figures, joint);
-      if (joint.point) {
-        const Vector speed = point_speed(joint, ends);
-        (-speed.x).put(values[0]);
-        (-speed.y).put(values[1]);
-        (-speed.z).put(values[2]);
-      }
-      for (std::uint32_t i = joint.point ? 3 : 0; i < joint.in_count; ++i) {
-        const FigureRow& row = rows[joint.slots[i]];
-        (-speed_of(row, joint.turning[joint.slots[i]], ends) * Number(row.in)).put(values[i]);
-      }
-    }
-    solve_values(figures);
-    give_values(figures);
-    for (int lane = 0; lane < figures.used; ++lane) {
-      const FigureBody& body = figures.bodies[push.bodies[static_cast<std::size_t>(lane)]];
-      Lanes speeds;
-      (dot(along, Vector(body.linear)) + dot(turn, Vector(body.angular))).put(speeds);
-      push.inverse[lane] = speeds[lane];
-    }
-  }
 };
 
 /// The copy has pointers of its own, which no write to lanes can change.
@@ -410,9 +363,8 @@ struct FigureWork : FigureWriting<Register> {
                           (own, of_what_holds, live, widest))                                                        \
   TWEENFALL_FIGURE_KERNEL(name, Numbers, target, hold_only, (Figures & figures), (own))                              \
   TWEENFALL_FIGURE_KERNEL(name, Numbers, target, add_up, (Figures & figures), (own))                                 \
-  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, respond, (Figures & figures, FigurePush & push), (own, push))       \
-  constexpr FigureKernels name = {write_all_##name, warm_start_##name, solve_##name,  moved_##name,                  \
-                                  close_##name,     hold_only_##name,  add_up_##name, respond_##name};
+  constexpr FigureKernels name = {write_all_##name, warm_start_##name, solve_##name, moved_##name,                   \
+                                  close_##name,     hold_only_##name,  add_up_##name};
 
 TWEENFALL_FIGURE_KERNELS(plain_figures, Halves<Halves<Two>>, )
 #if defined(__x86_64__) || defined(__i386__)

@@ -96,14 +96,6 @@ struct Figures {
   bool silent = false;  ///< some row is redundant
 };
 
-/// An impulse on one body in each lane, and what it brings about.
-struct FigurePush {
-  std::array<std::uint32_t, blocks::lane_count> bodies{};  ///< of the figure
-  blocks::Lanes3 along = {};                               ///< unit direction; 0 in lanes without any
-  blocks::Lanes3 turn = {};                                ///< arm x direction, m
-  blocks::Lanes inverse = {};  ///< speed that the point gains along the direction per unit of impulse, 1/kg
-};
-
 /// How rows are written: see JointRows::begin.
 struct WriteRule {
   double h = 0, rate = 0, dt = 0;
@@ -129,8 +121,6 @@ struct FigureKernels {
   void (*hold_only)(Figures& figures);
   /// Adds the impulses to the sums of the step.
   void (*add_up)(Figures& figures);
-  /// Finds what an impulse brings about if all rows that are `in` hold; overwrites the velocities in the lanes.
-  void (*respond)(Figures& figures, FigurePush& push);
 };
 
 /// For all instruction sets that this processor has, the plainest first and the widest last.

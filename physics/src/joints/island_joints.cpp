@@ -11,7 +11,6 @@ namespace tweenfall::joints {
 
 using blocks::BodyLanes;
 using blocks::IslandBody;
-using blocks::Lanes3;
 
 namespace {
 
@@ -283,50 +282,6 @@ void IslandJoints::end_step(const std::vector<state::Body>& bodies, std::vector<
 void IslandJoints::solve(std::vector<BodyLanes>& velocities, bool moving, bool backward) {
   if (joints_.empty()) return;
   each_group([&](FigureGroup& group) { fastest_figure_kernels().solve(group.figures(velocities), moving); }, backward);
-}
-
-void IslandJoints::find_figures_of_bodies(std::size_t bodies) {
-  members_of_.assign(bodies, {});
-  for (std::uint32_t i = 0; i < group_count_; ++i) {
-    const FigureGroup& group = groups_[i];
-    if (!group.whole()) continue;
-    for (std::uint32_t number = 0; number < group.body_count(); ++number)
-      if (group.body(number).moves)
-        for (int lane = 0; lane < group.lanes(); ++lane)
-          members_of_[group.body(number, lane)] = {
-              static_cast<std::uint32_t>(blocks::lane_count) * i + static_cast<std::uint32_t>(lane), number};
-  }
-}
-
-void IslandJoints::respond(std::span<Push> pushes) {
-  due_.resize(std::max(due_.size(), figure_count()));
-  for (std::vector<std::uint32_t>& its : due_) its.clear();
-  for (std::uint32_t i = 0; i < pushes.size(); ++i) due_[figure_of(pushes[i].place)].push_back(i);
-  work_.parts(group_count_, [&](std::size_t number) {
-    const std::span<const std::vector<std::uint32_t>> due =
-        std::span(due_).subspan(number * blocks::lane_count, blocks::lane_count);
-    std::size_t most = 0;
-    for (const std::vector<std::uint32_t>& its : due) most = std::max(most, its.size());
-    for (std::size_t k = 0; k < most; ++k) {
-      FigurePush push;
-      for (int lane = 0; lane < blocks::lane_count; ++lane) {
-        const std::vector<std::uint32_t>& its = due[static_cast<std::size_t>(lane)];
-        if (k >= its.size()) continue;
-        const Push& one = pushes[its[k]];
-        push.bodies[static_cast<std::size_t>(lane)] = members_of_[one.place].number;
-        for (Lanes3* to : {&push.along, &push.turn}) {
-          const Vec3& from = to == &push.along ? one.along : one.turn;
-          to->x[lane] = from.x();
-          to->y[lane] = from.y();
-          to->z[lane] = from.z();
-        }
-      }
-      fastest_figure_kernels().respond(groups_[number].figures(), push);
-      for (int lane = 0; lane < blocks::lane_count; ++lane)
-        if (k < due[static_cast<std::size_t>(lane)].size())
-          pushes[due[static_cast<std::size_t>(lane)][k]].inverse = push.inverse[lane];
-    }
-  });
 }
 
 void IslandJoints::move(const std::vector<BodyLanes>& velocities) {

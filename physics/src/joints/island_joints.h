@@ -55,21 +55,6 @@ class IslandJoints {
       if (group.acts(place, lane)) acts(entry.a, entry.b);
     });
   }
-  /// An impulse at a point of a body.
-  struct Push {
-    std::uint32_t place = 0;  ///< of the body in the island
-    Vec3 along{0, 0, 0};      ///< unit direction
-    Vec3 turn{0, 0, 0};       ///< arm x direction, m
-    double inverse = 0;       ///< what is found: speed that the point gains per unit of impulse, 1/kg
-  };
-  /// Which bodies are held together by joints that are solved at once.
-  void find_figures_of_bodies(std::size_t bodies);
-  /// Number of the body's figure; `none` for a body without joints.
-  [[nodiscard]] std::uint32_t figure_of(std::uint32_t place) const { return members_of_[place].figure; }
-  [[nodiscard]] std::size_t figure_count() const { return group_count_ * blocks::lane_count; }
-  static constexpr std::uint32_t none = 0xffffffff;
-  /// Finds what pushes on bodies of figures bring about, with all that their joints carry along.
-  void respond(std::span<Push> pushes);
   /// The bodies move with these velocities.
   void move(const std::vector<blocks::BodyLanes>& velocities);
   /// Adds up the impulses of the sub-step. The next one starts with them. Where a body was struck, for which
@@ -152,15 +137,8 @@ class IslandJoints {
   void close_gaps(FigureGroup& group, const std::vector<state::Body>& bodies, std::vector<blocks::IslandBody>& island,
                   const std::vector<blocks::BodyLanes>& velocities);
 
-  /// A body's figure, as 8 * group + lane, and its number there.
-  struct FigureMember {
-    std::uint32_t figure = none, number = 0;
-  };
-
   std::vector<Entry> joints_;
-  std::vector<FigureMember> members_of_;         ///< by place
-  std::vector<std::vector<std::uint32_t>> due_;  ///< by figure: pushes
-  std::vector<FigureGroup> groups_;              ///< as many as any islands needed so far, since making one takes long
+  std::vector<FigureGroup> groups_;  ///< as many as any islands needed so far, since making one takes long
   std::size_t group_count_ = 0;
   std::vector<std::uint32_t> gears_;  ///< in joints_
   static constexpr std::size_t most_known = 8;

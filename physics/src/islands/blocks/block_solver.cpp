@@ -193,7 +193,6 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     by_color([&](const Rows& some) { kernels.warm_start(some); });
     holds_.begin_sub_step(bodies, bodies_, velocities_, dt - (sub_step + 1) * h);
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
-    if (sub_step == 0 && passes_on) weigh_jointed();
     follow_spins(bodies);
     const bool blows = passes_on && meets_;
     if (bouncy_ || blows) find_meetings(h);

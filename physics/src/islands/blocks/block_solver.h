@@ -109,7 +109,6 @@ class BlockSolver {
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, double dt,
                       int sub_steps, int sub_step);
   void prepare_again(const std::vector<state::Body>& bodies);
-  void weigh_jointed();
   void find_lags();
   void find_lags_of_jointed();
   void tame_jointed(const std::vector<state::Body>& bodies, double h);
@@ -190,9 +189,7 @@ class BlockSolver {
   std::vector<contacts::Closing> closings_;  ///< of the contacts
   ContactBlocks contacts_;
   joints::IslandJoints joints_;
-  std::vector<joints::IslandJoints::Push> pushes_;
-  std::vector<std::uint32_t> borne_;  ///< by figure: points of contacts on it
-  JointedSpins spins_;                ///< empty if there are no joints
+  JointedSpins spins_;  ///< empty if there are no joints
   IslandHolds holds_;
   bool bouncy_ = false;      ///< some contact has restitution
   bool meets_ = false;       ///< some contact is an impact

@@ -68,7 +68,6 @@ struct ContactBlock {
   Lanes3 normal, tangent1, tangent2;
   Lanes inverse_mass_a, inverse_mass_b;
   Lanes inverse_moment_a, inverse_moment_b;  ///< if `even`
-  Lanes weight = all(1);                     ///< factor of the points' masses: see BlockSolver::weigh_jointed
   Lanes coefficient;                         ///< of friction
   Lanes twist_mass, twist, total_twist;      ///< about the normal, if friction is at the middle
   Mask hard;                                 ///< not soft: an impact

@@ -397,7 +397,7 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
     put(row.turn_a, lane, across_a);
     put(row.turn_b, lane, across_b);
     const double inverse = masses.inverse_mass + masses.turning(across_a, across_b, across_a, across_b);
-    row.mass[lane] = inverse > 0 ? block.weight[lane] / inverse : 0;
+    row.mass[lane] = inverse > 0 ? 1 / inverse : 0;
     if (displacements) {
       // The rows add the whole displacement of the step to it.
       row.base[lane] = point.start_gap + normal.dot((arm_b - point.start_arm_b) - (arm_a - point.start_arm_a)) -

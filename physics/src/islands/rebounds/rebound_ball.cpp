@@ -15,7 +15,7 @@ void ReboundBall::take(const ContactBlocks& contacts, std::uint32_t index) {
   inverse_mass_a_ = block.inverse_mass_a[lane];
   inverse_mass_b_ = block.inverse_mass_b[lane];
   normal_ = lane_of(block.normal, lane);
-  mass_ = 1 / (inverse_mass_a_ + inverse_mass_b_);
+  mass_ = block.mass[lane];
   gap_ = block.gap[lane];
   impulse_ = before_ = block.impulse[lane];
   wanted_ = 0;

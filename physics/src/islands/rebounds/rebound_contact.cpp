@@ -33,12 +33,7 @@ void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, co
   for (std::size_t k = 0; k < count_; ++k) {
     const PointRow& row = contacts.points[block.point + k];
     const double impulse = row.impulse[lane];
-    points_[k] = {row.mass[lane] / block.weight[lane],
-                  row.gap[lane],
-                  impulse,
-                  impulse,
-                  0,
-                  lane_of(row.turn_a, lane),
+    points_[k] = {row.mass[lane],           row.gap[lane], impulse, impulse, 0, lane_of(row.turn_a, lane),
                   lane_of(row.turn_b, lane)};
   }
   for (std::size_t k = 0; k < frictions_; ++k) {
