@@ -18,43 +18,28 @@ constexpr double hardly = 2e-3;
 /// But at most this far, m, so that approaching points are found before they touch.
 constexpr double unnoticed = 1e-3;
 
-/// A manifold that was found earlier, in the bodies' own axes.
-class FoundManifold {
- public:
-  FoundManifold(const ContactMemories& memories, const ContactMemory& memory)
-      : memories_(memories), memory_(memory), then_(*memories.more(memory)), back_a_(then_.a.rotation.conjugate()) {}
-
-  /// Of b, in a's axes.
-  [[nodiscard]] Quat turn() const { return back_a_ * then_.b.rotation; }
-  /// From a's center of mass to b's, in a's axes, m.
-  [[nodiscard]] Vec3 between() const { return back_a_ * Vec3(then_.b.center - then_.a.center); }
-
-  /// The same for the present positions of the bodies. Calls see(i, arm from a, arm from b, gap) for its points.
-  template <class See>
-  Manifold laid(const Stand& a, const Stand& b, const See& see) const {
-    const Mat3 axes_a = a.rotation.toRotationMatrix(), axes_b = b.rotation.toRotationMatrix();
-    const Quat back_b = then_.b.rotation.conjugate();
-    Manifold manifold;
-    manifold.normal = axes_a * Vec3(back_a_ * memory_.normal);
-    manifold.count = memory_.count;
-    for (std::size_t i = 0; i < memory_.count; ++i) {
-      const state::PointMemory& point = memories_.point(memory_, i);
-      const Vec3 arm_a = axes_a * Vec3(back_a_ * Vec3(point.position - then_.a.center));
-      const Vec3 arm_b = axes_b * Vec3(back_b * Vec3(point.position - then_.b.center));
-      const Vec3 apart = (b.center + arm_b) - (a.center + arm_a);
-      const double gap = -point.penetration + manifold.normal.dot(apart);
-      manifold.points[i] = {a.center + arm_a + 0.5 * apart, -gap, memories_.feature(memory_, i)};
-      see(i, arm_a, arm_b, gap);
-    }
-    return manifold;
+/// A manifold that was found earlier, carried to where its bodies are now. Calls see(i, arm from a, arm from b, gap) for
+/// its points.
+/// @param turn_a, turn_b  how they have turned since
+template <class See>
+Manifold laid(const ContactMemories& memories, const ContactMemory& memory, const Mat3& turn_a, const Mat3& turn_b,
+              const Vec3& center_a, const Vec3& center_b, const See& see) {
+  const MoreOfContact& then = *memories.more(memory);
+  Manifold manifold;
+  manifold.normal = turn_a * memory.normal;
+  manifold.count = memory.count;
+  for (std::size_t i = 0; i < memory.count; ++i) {
+    const state::PointMemory& point = memories.point(memory, i);
+    const Vec3 arm_a = turn_a * (point.position - then.a.center);
+    const Vec3 arm_b = turn_b * (point.position - then.b.center);
+    const Vec3 at_a = center_a + arm_a;
+    const Vec3 apart = (center_b + arm_b) - at_a;
+    const double gap = -point.penetration + manifold.normal.dot(apart);
+    manifold.points[i] = {at_a + 0.5 * apart, -gap, memories.feature(memory, i)};
+    see(i, arm_a, arm_b, gap);
   }
-
- private:
-  const ContactMemories& memories_;
-  const ContactMemory& memory_;
-  const MoreOfContact& then_;
-  Quat back_a_;
-};
+  return manifold;
+}
 
 }  // namespace
 
@@ -68,29 +53,35 @@ bool keeps_manifold(const ContactConstraint& contact) {
 bool take_up(const ContactMemories& memories, const ContactMemory& memory, const Body& a, const Body& b, double swing,
              double dt, ContactConstraint& contact) {
   if (!memory.is(ContactMemory::holds) || !memory.is(ContactMemory::touching) || a.placed || b.placed) return false;
-  const FoundManifold found(memories, memory);
+  const MoreOfContact& then = *memories.more(memory);
   const double size = std::min(a.radius(), b.radius());
-  const Stand now_a{a.center, a.motion.pose.rotation}, now_b{b.center, b.motion.pose.rotation};
-  const Quat back_a = now_a.rotation.conjugate();
-  const Vec3 between = back_a * Vec3(b.center - a.center);
-  const double turn = 2 * (found.turn().conjugate() * (back_a * now_b.rotation)).vec().norm();
-  const double moved = (between - found.between()).norm() + turn * size + swing * dt;
+  const Quat turn_a = a.motion.pose.rotation * then.a.rotation.conjugate();
+  const Quat turn_b = b.motion.pose.rotation * then.b.rotation.conjugate();
+  const Mat3 axes_a = turn_a.toRotationMatrix();
+  const double turn = 2 * (turn_a.conjugate() * turn_b).vec().norm();
+  const double shift = ((b.center - a.center) - axes_a * (then.b.center - then.a.center)).norm();
+  const double moved = shift + turn * size + swing * dt;
   if (moved > std::min(hardly * size, unnoticed)) return false;
   contact.count = memory.count;
-  contact.manifold = found.laid(now_a, now_b, [&](std::size_t i, const Vec3& arm_a, const Vec3& arm_b, double gap) {
-    PointConstraint& point = contact.points[i];
-    point = {};
-    point.feature = memories.feature(memory, i);
-    point.start_arm_a = arm_a;
-    point.start_arm_b = arm_b;
-    point.start_gap = gap;
-  });
+  contact.manifold = laid(memories, memory, axes_a, turn_b.toRotationMatrix(), a.center, b.center,
+                          [&](std::size_t i, const Vec3& arm_a, const Vec3& arm_b, double gap) {
+                            PointConstraint& point = contact.points[i];
+                            point = {};
+                            point.feature = memories.feature(memory, i);
+                            point.start_arm_a = arm_a;
+                            point.start_arm_b = arm_b;
+                            point.start_gap = gap;
+                          });
   return true;
 }
 
 Manifold manifold_of(const ContactMemories& memories, const ContactMemory& memory, const Stand& a, const Stand& b) {
-  if (memory.is(ContactMemory::taken_up))
-    return FoundManifold(memories, memory).laid(a, b, [](std::size_t, const Vec3&, const Vec3&, double) {});
+  if (memory.is(ContactMemory::taken_up)) {
+    const MoreOfContact& then = *memories.more(memory);
+    const auto turned = [](const Quat& from, const Quat& to) { return Mat3((to * from.conjugate()).toRotationMatrix()); };
+    return laid(memories, memory, turned(then.a.rotation, a.rotation), turned(then.b.rotation, b.rotation), a.center,
+                b.center, [](std::size_t, const Vec3&, const Vec3&, double) {});
+  }
   Manifold manifold;
   manifold.normal = memory.normal;
   manifold.count = memory.count;

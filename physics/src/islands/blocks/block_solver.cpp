@@ -189,8 +189,11 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);
-    if (!led_.empty()) contacts_.ride(bodies_, led_, starts_, h);
-    by_color([&](const Rows& some) { kernels.warm_start(some); });
+    if (!led_.empty()) {
+      each_body([this](std::size_t i) { include_turn(i); });
+      contacts_.ride(bodies_, led_, starts_, h);
+    }
+    if (!carries_on_) by_color([&](const Rows& some) { kernels.warm_start(some); });
     holds_.begin_sub_step(bodies, bodies_, velocities_, dt - (sub_step + 1) * h);
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
     follow_spins(bodies);
@@ -198,6 +201,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     if (bouncy_ || blows) find_meetings(h);
     // Joints have the last word: what a contact then lacks, the next sub-step supplies.
     for (int k = 0; k < softening; ++k) {
+      soft.measures = k == 0;
       soft.note = k + 1 == softening;
       holds_.solve(bodies, bodies_, contacts_, velocities_);
       by_color([&](const Rows& some) { kernels.solve(some, soft); });
@@ -218,6 +222,9 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       by_color([&](const Rows& some) { kernels.solve(some, hard); });
       joints_.solve(velocities_, false, k % 2 == 0);
     }
+    carries_on_ = joints_.empty() && holds_.empty() && rebounds_.empty() && !springs;
+    if (carries_on_)
+      for (const std::uint32_t i : uneven_) ended_[i] = velocities_[i];
     follow_spins(bodies);
     carry_spins(h);
     if (springs) end_dull_rebounds();
@@ -251,13 +258,13 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   each_body([&](std::size_t i) {
     IslandBody& entry = bodies_[i];
     if (!entry.movable || !paces_[i].touched) return;
+    if (paces_[i].steady) entry.center += linear_of(displacements_[i]);
     if (paces_[i].unturned) {
-      entry.center += linear_of(displacements_[i]);
       entry.rotation = exp_map(angular_of(displacements_[i])) * entry.rotation;
       entry.rotation.normalize();
     }
+    include_turn(i);
     Body& body = bodies[entry.index];
-    entry.rotation = entry.turned_rotation();
     entry.rotation.coeffs() = entry.rotation.coeffs() + Vec4::Zero();
     body.center = without_sign_of_zero(entry.center);
     body.twist = {without_sign_of_zero(linear_of(velocities_[i])), without_sign_of_zero(angular_of(velocities_[i]))};

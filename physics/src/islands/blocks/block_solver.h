@@ -108,11 +108,14 @@ class BlockSolver {
                double trembling, double dt);
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, double dt,
                       int sub_steps, int sub_step);
+  void begin_sub_step_of(std::size_t place, const state::Body& body, const forces::Load& load, double h);
+  void carry_on(std::size_t place, const BodyLanes& ended);
   void prepare_again(const std::vector<state::Body>& bodies);
   void find_lags();
   void find_lags_of_jointed();
   void tame_jointed(const std::vector<state::Body>& bodies, double h);
   void end_sub_step(double h);
+  void include_turn(std::size_t place);
   void lead(double dt, int sub_steps, int sub_step);
   void end_lead();
   void carry_spins(double h);
@@ -171,7 +174,10 @@ class BlockSolver {
   std::vector<Marks> marks_;            ///< of the contacts
   std::vector<IslandBody> bodies_;      ///< the first stands for no body, in empty lanes
   std::vector<BodyPace> paces_;
+  std::vector<BodyTurn> turns_;
   std::vector<BodyLanes> velocities_, starts_, displacements_;
+  std::vector<BodyLanes> begun_;  ///< velocities at the start of the sub-step, with forces but without contacts
+  std::vector<BodyLanes> ended_;  ///< velocities that the passes left, of bodies in `uneven_`
   std::vector<step::LedBody> led_;  ///< of bodies_
   std::vector<BodyLag> lags_;
   std::vector<BodyLag> sub_starts_;  ///< linear displacements at the start of the sub-step
@@ -191,6 +197,9 @@ class BlockSolver {
   joints::IslandJoints joints_;
   JointedSpins spins_;  ///< empty if there are no joints
   IslandHolds holds_;
+  /// The contacts of the sub-step are those of the one before, and so are their impulses: bodies get at once what they
+  /// got from them.
+  bool carries_on_ = false;
   bool bouncy_ = false;      ///< some contact has restitution
   bool meets_ = false;       ///< some contact is an impact
   bool conveyed_ = false;    ///< some surface moves

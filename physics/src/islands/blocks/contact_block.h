@@ -109,6 +109,7 @@ struct PassRule {
   Lanes inverse_h = all(0);  ///< of the sub-step, 1/s
   Lanes enough = all(0);     ///< with several passes: a smaller change no longer matters, per speed from the impulses
   int passes = 1;            ///< more than one only if no two lanes share a movable body
+  bool measures = false;     ///< finds the gaps of the sub-step before
   bool note = false;         ///< records what is pressed and held
   bool springs = false;      ///< what is pressed springs back
   bool sum_up = false;       ///< adds the impulses to the totals
@@ -146,13 +147,13 @@ struct Rows {
 
 /// Operations on rows, for one instruction set. All sets give the same bits.
 struct Kernels {
-  /// Computes the gaps of the sub-step, and applies the impulses of the one before again.
+  /// Applies the impulses of the sub-step before again.
   void (*warm_start)(const Rows& rows);
   /// Passes over each of the blocks: friction on the circular cone, then the normals.
   void (*solve)(const Rows& rows, const PassRule& rule);
   /// Removes from the lags of pressed bodies what a contact holds: the part along the normal, or all of it.
   void (*hold)(const Rows& rows);
-  /// Finds what may meet in the sub-step fast enough to rebound: lanes as 8 * block + lane, in order; balls after all
+  /// Finds what may meet in the sub-step fast enough to rebound, and its gaps: lanes as 8 * block + lane, in order; balls after all
   /// blocks.
   /// `starts`: velocities at the start of the sub-step; `found`: room for all lanes. Returns how many.
   std::size_t (*find_meetings)(const Rows& rows, const BodyLanes* starts, double h, std::uint32_t* found);

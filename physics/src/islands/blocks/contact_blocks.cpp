@@ -127,6 +127,7 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
   work.ranges(fillings_.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Filling& filling = fillings_[i];
+      if (!filling.of_balls) clear_rows(blocks[filling.index], filling, contacts);
       for (std::uint32_t lane = 0; lane < filling.count; ++lane) {
         const std::uint32_t number = sorted_[filling.first + lane];
         if (filling.of_balls)
@@ -171,8 +172,7 @@ void ContactBlocks::find_keys(std::span<ContactConstraint* const> contacts, cons
 void ContactBlocks::lay_out() {
   blocks.clear();
   balls.clear();
-  points.clear();
-  frictions.clear();
+  point_count_ = friction_count_ = 0;
   drifts.clear();
   inertias.clear();
   meetings.clear();
@@ -266,14 +266,33 @@ void ContactBlocks::open(const Makeup& makeup) {
   block.even = makeup.even;
   block.points = static_cast<std::int8_t>(makeup.points);
   block.frictions = grip == Grip::none ? std::int8_t{0} : grip == Grip::central ? std::int8_t{1} : block.points;
-  block.point = static_cast<std::uint32_t>(points.size());
-  block.friction = static_cast<std::uint32_t>(frictions.size());
-  points.resize(points.size() + static_cast<std::size_t>(block.points));
-  frictions.resize(frictions.size() + static_cast<std::size_t>(block.frictions));
-  if (drifting_) drifts.resize(frictions.size());
+  block.point = point_count_;
+  block.friction = friction_count_;
+  point_count_ += static_cast<std::uint32_t>(block.points);
+  friction_count_ += static_cast<std::uint32_t>(block.frictions);
+  if (points.size() < point_count_) points.resize(2 * std::size_t{point_count_});
+  if (frictions.size() < friction_count_) frictions.resize(2 * std::size_t{friction_count_});
+  if (drifting_) drifts.resize(friction_count_);
   if (block.even) return;
   block.inertia = static_cast<std::uint32_t>(inertias.size());
   inertias.emplace_back();
+}
+
+/// Rows keep what an earlier step left in them. What is filled in for every lane needs no clearing.
+void ContactBlocks::clear_rows(const ContactBlock& block, const Filling& filling,
+                               std::span<ContactConstraint* const> contacts) {
+  const std::span its_points = std::span(points).subspan(block.point, static_cast<std::size_t>(block.points));
+  const std::span its_frictions = std::span(frictions).subspan(block.friction, static_cast<std::size_t>(block.frictions));
+  bool full = filling.count == lane_count;
+  for (std::uint32_t lane = 0; lane < filling.count; ++lane)
+    full = full && contacts[sorted_[filling.first + lane]]->count == block.points;
+  if (!full) {
+    std::ranges::fill(its_points, PointRow{});
+    std::ranges::fill(its_frictions, FrictionRow{});
+    return;
+  }
+  for (PointRow& row : its_points) row.total = row.back = all(0);
+  for (FrictionRow& row : its_frictions) row.total_first = row.total_second = all(0);
 }
 
 void ContactBlocks::fill_ball(std::size_t ball, int lane, ContactConstraint& contact,
@@ -382,7 +401,7 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
   const double share = 1.0 / contact.count;
   const auto turn_of = [displacements](const IslandBody& body) -> Quat {
     if (!displacements) return Quat::Identity();
-    return body.turned_rotation() * body.start_rotation.conjugate();
+    return body.rotation * body.start_rotation.conjugate();
   };
   const Quat turn_a = turn_of(a), turn_b = turn_of(b);
   for (int i = 0; i < contact.count; ++i) {

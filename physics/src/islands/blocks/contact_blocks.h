@@ -59,8 +59,8 @@ class ContactBlocks {
   std::vector<ContactBlock> blocks;
   std::vector<BallBlock> balls;
   std::size_t pairs = 0, ball_pairs = 0;  ///< those of two movable bodies come first
-  std::vector<PointRow> points;
-  std::vector<FrictionRow> frictions;
+  std::vector<PointRow> points;        ///< more than are used
+  std::vector<FrictionRow> frictions;  ///< more than are used
   std::vector<DriftRow> drifts;  ///< parallel to `frictions`, or empty if no surface moves and nothing is led
   std::vector<InertiaRow> inertias;
   std::vector<MeetingRow> meetings, ball_meetings;
@@ -98,6 +98,8 @@ class ContactBlocks {
   void lay_out();
   void open(const Makeup& makeup);
   void find_phases();
+  void clear_rows(const ContactBlock& block, const Filling& filling,
+                  std::span<contacts::ContactConstraint* const> contacts);
   void fill(std::size_t block, int lane, contacts::ContactConstraint& contact, const std::vector<IslandBody>& bodies,
             const Ends& own, const contacts::Closing& closing, double h);
   void fill_ball(std::size_t ball, int lane, contacts::ContactConstraint& contact,
@@ -108,6 +110,7 @@ class ContactBlocks {
 
   bool drifting_ = false;  ///< some surface moves, or something is led
   Coloring coloring_;
+  std::uint32_t point_count_ = 0, friction_count_ = 0;
   std::vector<Filling> fillings_;
   std::vector<std::uint32_t> keys_, counts_, sorted_;
   std::vector<std::size_t> color_blocks_, color_balls_;  ///< by color: where its blocks begin

@@ -56,7 +56,7 @@ void BlockSolver::take(std::size_t place, const Body& body, const Load& load, In
     entry.surface = body.surface();
     traits.conveys = true;
   }
-  entry.center = entry.start_center = body.center;
+  entry.center = body.center;
   entry.rotation = entry.start_rotation = body.motion.pose.rotation;
   traits.immovable = body.immovable();
   if (!entry.movable) return;
@@ -87,10 +87,13 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   const std::size_t count = indices_.size();
   bodies_.resize(count);
   paces_.resize(count);
+  turns_.assign(count, {});
   velocities_.resize(count);
   displacements_.resize(count);
   lags_.resize(count);
   starts_.resize(count);
+  begun_.resize(count);
+  ended_.resize(count);
   sub_starts_.resize(count);
   traits_.resize(count);
   bodies_[0] = {};
@@ -109,7 +112,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   uneven_.clear();
   rebounds_.clear();  // of the island before
   led_.clear();
-  bouncy_ = meets_ = conveyed_ = any_stale_ = driven_ = false;
+  bouncy_ = meets_ = conveyed_ = any_stale_ = driven_ = carries_on_ = false;
   for (std::uint32_t i = 1; i < count; ++i) {
     conveyed_ = conveyed_ || traits_[i].conveys;
     driven_ = driven_ || traits_[i].driven;

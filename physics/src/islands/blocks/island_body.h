@@ -45,6 +45,26 @@ struct alignas(64) BodyPace {
   bool pressed = false;   ///< an impulse reached it in this sub-step
 };
 
+/// How far a body has turned.
+struct alignas(32) BodyTurn {
+  double turned = 0;     ///< since its rows were prepared, rad
+  double latest[3] = {};  ///< rotation vector of a steady body that its rotation does not include yet
+
+  /// Adds a turn that follows, by the first terms of the series of Baker, Campbell and Hausdorff: right to a rounding
+  /// where neither is longer than `short_turn`.
+  void follow_by(const Vec3& turn) {
+    const Vec3 before(latest[0], latest[1], latest[2]);
+    const Vec3 bend = turn.cross(before);
+    const Vec3 sum = before + turn + 0.5 * bend + (turn - before).cross(bend) / 12;
+    for (int k = 0; k < 3; ++k) latest[k] = sum[k];
+  }
+  /// Whether the next turn could make the sum too long.
+  [[nodiscard]] bool far() const {
+    return latest[0] * latest[0] + latest[1] * latest[1] + latest[2] * latest[2] > short_turn * short_turn;
+  }
+  static constexpr double short_turn = 1e-3;  ///< rad
+};
+
 /// A body of an island while its contacts are being solved; its velocity is kept apart.
 struct alignas(64) IslandBody {
   std::uint32_t index = 0;
@@ -60,23 +80,12 @@ struct alignas(64) IslandBody {
   bool conveys = false;    ///< its surface moves relative to it
   Twist surface;           ///< how its surface moves, at the center of mass, world axes
   double given = 1;        ///< share of an impulse that such a drive lets through
-  double turned = 0;       ///< since its rows were prepared, rad
   double drag = 0;         ///< 1/s, taken implicitly
   double inverse_mass = 0;
   double inverse_moment = 0;            ///< of an isotropic body
   Mat3 inverse_inertia = Mat3::Zero();  ///< world axes, when its rows were prepared
-  Vec3 center{0, 0, 0}, start_center{0, 0, 0};
+  Vec3 center{0, 0, 0};  ///< of a steady body: at the start of the step, until its end
   Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
-  Vec3 turning{0, 0, 0};  ///< too little to be part of the rotation yet, rad
-
-  /// Its present rotation.
-  [[nodiscard]] Quat turned_rotation() const {
-    if (turning == Vec3::Zero()) return rotation;
-    Quat now = exp_map(turning) * rotation;
-    now.normalize();
-    return now;
-  }
-
   Quat free_rotation{1, 0, 0, 0};     ///< at the end of the sub-step if nothing touches it
   std::uint32_t led = step::not_led;  ///< its index among the led bodies
 

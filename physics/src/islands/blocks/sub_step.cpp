@@ -14,8 +14,6 @@ using state::Body;
 
 namespace {
 
-/// Turns of an even body are added up until they exceed this, rad: the sum is right to within its square.
-constexpr double hardly_turned = 1e-7;
 /// Up to this turn in a sub-step, the own change of a pressed body's spin comes from two evaluations of Euler's
 /// equations.
 constexpr double slow_turn = 0.05;
@@ -40,49 +38,69 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
                                  int sub_steps, int sub_step) {
   const double h = dt / sub_steps;
   lead(dt, sub_steps, sub_step);
+  carries_on_ = carries_on_ && !any_stale_;
   each_body([&](std::size_t i) {
-    BodyPace& pace = paces_[i];
+    const BodyPace& pace = paces_[i];
     BodyLanes& velocity = velocities_[i];
-    BodyLanes& start = starts_[i];
     std::copy_n(displacements_[i].linear, 4, sub_starts_[i].lanes);
     if (pace.steady) {
-      start = velocity;
+      starts_[i] = velocity;
       for (int k = 0; k < 4; ++k) velocity.linear[k] += pace.acceleration[k] * h;
+      carry_on(i, starts_[i]);
       return;
     }
     IslandBody& entry = bodies_[i];
     entry.sub_step_center = entry.center;
     entry.sub_step_rotation = entry.rotation;
-    if (!pace.movable) {
-      if (entry.led == step::not_led) start = {};
-      return;
-    }
-    start = velocity;
-    for (int k = 0; k < 3; ++k)
-      velocity.linear[k] = (velocity.linear[k] + pace.acceleration[k] * h) / (1 + entry.drag * h);
-    entry.followed = !pace.pressed && !pace.even && !entry.jointed;
-    pace.pressed = false;
-    if (pace.even) return;
-    const Body& body = bodies[entry.index];
-    const Load& load = loads[entry.index];
-    const Vec3 angular = angular_of(velocity);
-    if (entry.jointed && !spins_.empty() && !(load.angular_drag > 0)) {
-      const Vec3 damped = angular / (1 + load.angular_damping * h);
-      const Vec3 spin = spins_.begin_sub_step(i, body, load, entry.rotation, damped, h);
-      if (spins_.follows(i)) return set(velocity.angular, spin);
-    } else if (!spins_.empty()) {
-      spins_.leave(i);
-    }
-    const bool slow = !entry.followed && angular.squaredNorm() * h * h <= slow_turn * slow_turn;
-    if (!slow || load.angular_drag > 0) {
-      const forces::Spin spin = forces::turned(body, {entry.rotation, angular}, load, h);
-      set(velocity.angular, spin.angular);
-      entry.free_rotation = spin.rotation;
-    } else {
-      const Vec3 damped = angular / (1 + load.angular_damping * h);
-      set(velocity.angular, spun(body, entry.rotation, damped, load.torque, h));
+    if (pace.movable) {
+      starts_[i] = velocity;
+      begin_sub_step_of(i, bodies[entry.index], loads[entry.index], h);
+      carry_on(i, pace.even ? starts_[i] : ended_[i]);
+    } else if (entry.led == step::not_led) {
+      starts_[i] = {};
     }
   });
+}
+
+/// What forces do in the sub-step to a body that something else than contacts and its weight stirs.
+void BlockSolver::begin_sub_step_of(std::size_t place, const Body& body, const Load& load, double h) {
+  BodyPace& pace = paces_[place];
+  IslandBody& entry = bodies_[place];
+  BodyLanes& velocity = velocities_[place];
+  for (int k = 0; k < 3; ++k)
+    velocity.linear[k] = (velocity.linear[k] + pace.acceleration[k] * h) / (1 + entry.drag * h);
+  entry.followed = !pace.pressed && !pace.even && !entry.jointed;
+  pace.pressed = false;
+  if (pace.even) return;
+  const Vec3 angular = angular_of(velocity);
+  if (entry.jointed && !spins_.empty() && !(load.angular_drag > 0)) {
+    const Vec3 damped = angular / (1 + load.angular_damping * h);
+    const Vec3 spin = spins_.begin_sub_step(place, body, load, entry.rotation, damped, h);
+    if (spins_.follows(place)) return set(velocity.angular, spin);
+  } else if (!spins_.empty()) {
+    spins_.leave(place);
+  }
+  const bool slow = !entry.followed && angular.squaredNorm() * h * h <= slow_turn * slow_turn;
+  if (!slow || load.angular_drag > 0) {
+    const forces::Spin spin = forces::turned(body, {entry.rotation, angular}, load, h);
+    set(velocity.angular, spin.angular);
+    entry.free_rotation = spin.rotation;
+  } else {
+    const Vec3 damped = angular / (1 + load.angular_damping * h);
+    set(velocity.angular, spun(body, entry.rotation, damped, load.torque, h));
+  }
+}
+
+/// @param ended  velocity that the passes of the sub-step before left
+void BlockSolver::carry_on(std::size_t place, const BodyLanes& ended) {
+  BodyLanes& velocity = velocities_[place];
+  const BodyLanes begun = velocity;
+  if (carries_on_)
+    for (int k = 0; k < 4; ++k) {
+      velocity.linear[k] += ended.linear[k] - begun_[place].linear[k];
+      velocity.angular[k] += ended.angular[k] - begun_[place].angular[k];
+    }
+  begun_[place] = begun;
 }
 
 /// A led body moves through the sub-step by its mean velocity, so that it is where its path is at the end.
@@ -113,8 +131,10 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
   any_stale_ = false;
   each_body([&](std::size_t i) {
     IslandBody& entry = bodies_[i];
-    entry.stale = !entry.round && entry.turned > (entry.led == step::not_led ? turned_enough_ : 0);
-    if (entry.stale) entry.turned = 0;
+    double& turned = turns_[i].turned;
+    entry.stale = !entry.round && turned > (entry.led == step::not_led ? turned_enough_ : 0);
+    if (entry.stale) turned = 0;
+    if (paces_[i].steady) include_turn(i);
     if (!entry.movable) return;
     if (entry.stale || (!joints_.empty() && !bodies[entry.index].spherical()))
       entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
@@ -128,6 +148,16 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
           contacts_.prepare(i, lane, bodies_, displacements_.data());
     }
   });
+}
+
+void BlockSolver::include_turn(std::size_t place) {
+  BodyTurn& turn = turns_[place];
+  const Vec3 latest(turn.latest[0], turn.latest[1], turn.latest[2]);
+  if (latest == Vec3::Zero()) return;
+  Quat& rotation = bodies_[place].rotation;
+  rotation = exp_map(latest) * rotation;
+  rotation.normalize();
+  std::fill_n(turn.latest, 3, 0.0);
 }
 
 void BlockSolver::end_sub_step(double h) {
@@ -152,6 +182,18 @@ void BlockSolver::end_sub_step(double h) {
           displacement.angular[k] += (kept * velocity.angular[k] + (1 - kept) * starts_[i].angular[k]) * h;
         continue;
       }
+      if (pace.steady) {
+        const Vec3 turning = angular_of(velocity) * h;
+        for (int k = 0; k < 3; ++k) displacement.angular[k] += turning[k];
+        BodyTurn& turn = turns_[i];
+        const double size = turning.norm();
+        turn.turned += size;
+        stale = stale || turn.turned > turned_enough_;
+        if (size > BodyTurn::short_turn) include_turn(i);
+        turn.follow_by(turning);
+        if (turn.far()) include_turn(i);
+        continue;
+      }
       IslandBody& entry = bodies_[i];
       for (int k = 0; k < 3; ++k) entry.center[k] += moved[k];
       Vec3 angular = angular_of(velocity);
@@ -161,18 +203,16 @@ void BlockSolver::end_sub_step(double h) {
       const Vec3 turning = angular * h;
       for (int k = 0; k < 3; ++k) displacement.angular[k] += turning[k];
       if (!entry.round) {
-        entry.turned += turning.norm();
-        stale = stale || entry.turned > (entry.led == step::not_led ? turned_enough_ : 0);
+        turns_[i].turned += turning.norm();
+        stale = stale || turns_[i].turned > (entry.led == step::not_led ? turned_enough_ : 0);
       }
       if (entry.followed && !pace.pressed) {
         // The spin of free flight keeps its energy only with the rotation that belongs to it.
         entry.rotation = entry.free_rotation;
         continue;
       }
-      entry.turning += turning;
-      if (pace.steady && !(entry.turning.squaredNorm() > hardly_turned * hardly_turned)) continue;
-      entry.rotation = entry.turned_rotation();
-      entry.turning = Vec3::Zero();
+      entry.rotation = exp_map(turning) * entry.rotation;
+      entry.rotation.normalize();
     }
     stale_[part] = stale ? 1 : 0;
   });

@@ -173,13 +173,17 @@ bool BlockSolver::move_by(const Rebound& rebound, const Contact& contact) {
     BodyLanes& displacement = displacements_[place];
     for (int i = 0; i < 3; ++i) displacement.linear[i] += moved[i];
     if (paces_[place].unturned) return;
-    body.center += moved;
+    if (paces_[place].steady)
+      include_turn(place);
+    else
+      body.center += moved;
     const Vec3 turning = body.inverse_inertia * (by * turn);
     if (turning == Vec3::Zero()) return;
     for (int i = 0; i < 3; ++i) displacement.angular[i] += turning[i];
-    if (!body.round) body.turned += turning.norm();
+    double& turned = turns_[place].turned;
+    if (!body.round) turned += turning.norm();
     // Its rows are prepared again, whether or not another body that is solved at the same time turns.
-    stale = stale || body.turned > turned_enough_;
+    stale = stale || turned > turned_enough_;
     body.rotation = exp_map(turning) * body.rotation;
     body.rotation.normalize();
   };

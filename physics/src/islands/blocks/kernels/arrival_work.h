@@ -13,6 +13,7 @@ struct ArrivalWork : LaneWork<Register> {
   using Lanes = LaneWork<Register>;
   using Lanes::angular;
   using Lanes::linear;
+  using Lanes::measure;
   using Lanes::which_of;
   using typename Lanes::Number;
   using typename Lanes::Vector;
@@ -81,6 +82,7 @@ struct ArrivalWork : LaneWork<Register> {
       const ContactBlock& block = rows.blocks[i];
       const MeetingRow& meetings = rows.meetings[i];
       if (!(Number(meetings.heeded) > Number(0.0)).any()) continue;
+      measure(rows, block);
       const Number along = dot(block.normal, linear(starts, block.a) - linear(starts, block.b));
       const Vector angular_a = angular(starts, block.a), angular_b = angular(starts, block.b);
       Which meets = along > along;
@@ -92,7 +94,8 @@ struct ArrivalWork : LaneWork<Register> {
       count += note_meetings(meets, i, found + count);
     }
     for (std::size_t i = 0; i < rows.ball_count; ++i) {
-      const BallBlock& block = rows.balls[i];
+      BallBlock& block = rows.balls[i];
+      measure(rows, block);
       const Number along = dot(block.normal, linear(starts, block.a) - linear(starts, block.b));
       count +=
           note_meetings(meeting(rows.ball_meetings[i], block.gap, along, block.mass, h), rows.count + i, found + count);

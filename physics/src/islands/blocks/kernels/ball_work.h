@@ -10,6 +10,7 @@ struct BallWork : LaneWork<Register> {
   using Lanes = LaneWork<Register>;
   using Lanes::angular;
   using Lanes::linear;
+  using Lanes::measure;
   using Lanes::next_normal;
   using Lanes::put_angular;
   using Lanes::put_linear;
@@ -22,8 +23,6 @@ struct BallWork : LaneWork<Register> {
 
   TWEENFALL_LANES static void warm_start_balls(const Rows& rows, BallBlock& block) {
     const Vector normal = block.normal, friction = block.friction;
-    (block.base + dot(normal, linear(rows.displacements, block.b) - linear(rows.displacements, block.a)))
-        .put(block.gap);
     const Vector impulse = Number(block.impulse) * normal + friction;
     const Vector turn = cross(normal, friction);
     put_linear(linear(rows.velocities, block.a) - Number(block.inverse_mass_a) * impulse, rows.velocities, block.to_a);
@@ -71,6 +70,7 @@ struct BallWork : LaneWork<Register> {
   }
 
   TWEENFALL_LANES static void solve_balls(const Rows& rows, BallBlock& block, const PassRule& rule) {
+    if (rule.measures) measure(rows, block);
     Balls balls{linear(rows.velocities, block.a),
                 angular(rows.velocities, block.a),
                 linear(rows.velocities, block.b),

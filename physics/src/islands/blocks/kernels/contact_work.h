@@ -10,6 +10,7 @@ struct ContactWork : LaneWork<Register> {
   using Lanes = LaneWork<Register>;
   using Lanes::angular;
   using Lanes::linear;
+  using Lanes::measure;
   using Lanes::next_normal;
   using Lanes::put_angular;
   using Lanes::put_linear;
@@ -65,18 +66,14 @@ struct ContactWork : LaneWork<Register> {
 
   template <bool even>
   TWEENFALL_LANES static void warm_start_block(const Rows& rows, ContactBlock& block) {
-    const Vector turned_a = angular(rows.displacements, block.a), turned_b = angular(rows.displacements, block.b);
-    const Number drift = dot(block.normal, linear(rows.displacements, block.b) - linear(rows.displacements, block.a));
     Vector turn_a{Number(0.0), Number(0.0), Number(0.0)}, turn_b = turn_a;
     Pair pair = pair_of(rows.velocities, block);
     for (int i = 0; i < block.points; ++i) {
-      PointRow& point = rows.points[block.point + static_cast<std::uint32_t>(i)];
+      const PointRow& point = rows.points[block.point + static_cast<std::uint32_t>(i)];
       const Number impulse = point.impulse;
-      const Vector its_a = point.turn_a, its_b = point.turn_b;
-      (point.base + (drift + (dot(its_b, turned_b) - dot(its_a, turned_a)))).put(point.gap);
       pair.pushed = pair.pushed + impulse;
-      turn_a = turn_a + impulse * its_a;
-      turn_b = turn_b + impulse * its_b;
+      turn_a = turn_a + impulse * point.turn_a;
+      turn_b = turn_b + impulse * point.turn_b;
     }
     for (int i = 0; i < block.frictions; ++i) {
       const FrictionRow& row = rows.frictions[block.friction + static_cast<std::uint32_t>(i)];
@@ -210,6 +207,7 @@ struct ContactWork : LaneWork<Register> {
 
   template <bool even>
   TWEENFALL_LANES static void solve_block(const Rows& rows, ContactBlock& block, const PassRule& rule) {
+    if (rule.measures) measure(rows, block);
     Pair pair = pair_of(rows.velocities, block);
     if (rule.passes == 1) {
       Unwatched watch;

@@ -46,6 +46,20 @@ struct LaneWork {
     return greater(v.x, -v.x) + (greater(v.y, -v.y) + greater(v.z, -v.z));
   }
 
+  /// Finds the gaps of the sub-step.
+  TWEENFALL_LANES static void measure(const Rows& rows, const ContactBlock& block) {
+    const Vector turned_a = angular(rows.displacements, block.a), turned_b = angular(rows.displacements, block.b);
+    const Number drift = dot(block.normal, linear(rows.displacements, block.b) - linear(rows.displacements, block.a));
+    for (int i = 0; i < block.points; ++i) {
+      PointRow& point = rows.points[block.point + static_cast<std::uint32_t>(i)];
+      (point.base + (drift + (dot(point.turn_b, turned_b) - dot(point.turn_a, turned_a)))).put(point.gap);
+    }
+  }
+  TWEENFALL_LANES static void measure(const Rows& rows, BallBlock& block) {
+    (block.base + dot(block.normal, linear(rows.displacements, block.b) - linear(rows.displacements, block.a)))
+        .put(block.gap);
+  }
+
   /// Watches rows during a single pass: there is nothing to decide.
   struct Unwatched {
     TWEENFALL_LANES Number keep(const Number& next, const Number&) const { return next; }
