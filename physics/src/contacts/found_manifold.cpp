@@ -18,8 +18,8 @@ constexpr double hardly = 2e-3;
 /// But at most this far, m, so that approaching points are found before they touch.
 constexpr double unnoticed = 1e-3;
 
-/// A manifold that was found earlier, carried to where its bodies are now. Calls see(i, arm from a, arm from b, gap) for
-/// its points.
+/// A manifold that was found earlier, carried to where its bodies are now. Calls see(i, arm from a, arm from b, gap)
+/// for its points.
 /// @param turn_a, turn_b  how they have turned since
 template <class See>
 Manifold laid(const ContactMemories& memories, const ContactMemory& memory, const Mat3& turn_a, const Mat3& turn_b,
@@ -78,7 +78,9 @@ bool take_up(const ContactMemories& memories, const ContactMemory& memory, const
 Manifold manifold_of(const ContactMemories& memories, const ContactMemory& memory, const Stand& a, const Stand& b) {
   if (memory.is(ContactMemory::taken_up)) {
     const MoreOfContact& then = *memories.more(memory);
-    const auto turned = [](const Quat& from, const Quat& to) { return Mat3((to * from.conjugate()).toRotationMatrix()); };
+    const auto turned = [](const Quat& from, const Quat& to) {
+      return Mat3((to * from.conjugate()).toRotationMatrix());
+    };
     return laid(memories, memory, turned(then.a.rotation, a.rotation), turned(then.b.rotation, b.rotation), a.center,
                 b.center, [](std::size_t, const Vec3&, const Vec3&, double) {});
   }

@@ -164,9 +164,10 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   gather(bodies, loads, islands, settings.integrator, dt);
   foresee(contacts, loads, effort.heap ? 2 * h * parts_ : 0, dt);
   holds_.gather(island, bodies, places_, bodies_, driven_, h);
-  if (!holds_.empty() || !island.joints.empty())
+  // Whoever rides on a led body is looked at in every sub-step.
+  if (!holds_.empty() || !island.joints.empty() || !led_.empty())
     for (std::size_t i = 1; i < bodies_.size(); ++i)
-      if (bodies_[i].held || bodies_[i].jointed) paces_[i].steady = paces_[i].unturned = false;
+      if (bodies_[i].held || bodies_[i].jointed || !led_.empty()) paces_[i].steady = paces_[i].unturned = false;
   contacts_.build(contacts, places_, bodies_, closings_, h, work_);
   velocities_.resize(contacts_.room);
   lags_.resize(contacts_.room);
@@ -189,10 +190,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);
-    if (!led_.empty()) {
-      each_body([this](std::size_t i) { include_turn(i); });
-      contacts_.ride(bodies_, led_, starts_, h);
-    }
+    if (!led_.empty()) contacts_.ride(bodies_, led_, starts_, h);
     if (!carries_on_) by_color([&](const Rows& some) { kernels.warm_start(some); });
     holds_.begin_sub_step(bodies, bodies_, velocities_, dt - (sub_step + 1) * h);
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
@@ -222,8 +220,10 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       by_color([&](const Rows& some) { kernels.solve(some, hard); });
       joints_.solve(velocities_, false, k % 2 == 0);
     }
-    carries_on_ = joints_.empty() && holds_.empty() && rebounds_.empty() && !springs;
-    if (carries_on_)
+    rebounded_ = springs || !rebounds_.empty();
+    if (rebounded_)
+      each_body([this](std::size_t i) { ended_[i] = velocities_[i]; });
+    else
       for (const std::uint32_t i : uneven_) ended_[i] = velocities_[i];
     follow_spins(bodies);
     carry_spins(h);

@@ -176,8 +176,8 @@ class BlockSolver {
   std::vector<BodyPace> paces_;
   std::vector<BodyTurn> turns_;
   std::vector<BodyLanes> velocities_, starts_, displacements_;
-  std::vector<BodyLanes> begun_;  ///< velocities at the start of the sub-step, with forces but without contacts
-  std::vector<BodyLanes> ended_;  ///< velocities that the passes left, of bodies in `uneven_`
+  std::vector<BodyLanes> begun_;    ///< velocities at the start of the sub-step, with forces but without contacts
+  std::vector<BodyLanes> ended_;    ///< velocities that the passes left; if nothing rebounds, only of `uneven_`
   std::vector<step::LedBody> led_;  ///< of bodies_
   std::vector<BodyLag> lags_;
   std::vector<BodyLag> sub_starts_;  ///< linear displacements at the start of the sub-step
@@ -197,9 +197,8 @@ class BlockSolver {
   joints::IslandJoints joints_;
   JointedSpins spins_;  ///< empty if there are no joints
   IslandHolds holds_;
-  /// The contacts of the sub-step are those of the one before, and so are their impulses: bodies get at once what they
-  /// got from them.
-  bool carries_on_ = false;
+  bool carries_on_ = false;  ///< bodies start the sub-step with what contacts gave them in the one before
+  bool rebounded_ = false;   ///< something sprang back in the sub-step before
   bool bouncy_ = false;      ///< some contact has restitution
   bool meets_ = false;       ///< some contact is an impact
   bool conveyed_ = false;    ///< some surface moves

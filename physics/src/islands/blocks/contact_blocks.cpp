@@ -282,7 +282,8 @@ void ContactBlocks::open(const Makeup& makeup) {
 void ContactBlocks::clear_rows(const ContactBlock& block, const Filling& filling,
                                std::span<ContactConstraint* const> contacts) {
   const std::span its_points = std::span(points).subspan(block.point, static_cast<std::size_t>(block.points));
-  const std::span its_frictions = std::span(frictions).subspan(block.friction, static_cast<std::size_t>(block.frictions));
+  const std::span its_frictions =
+      std::span(frictions).subspan(block.friction, static_cast<std::size_t>(block.frictions));
   bool full = filling.count == lane_count;
   for (std::uint32_t lane = 0; lane < filling.count; ++lane)
     full = full && contacts[sorted_[filling.first + lane]]->count == block.points;
@@ -367,7 +368,7 @@ void ContactBlocks::fill(std::size_t index, int lane, ContactConstraint& contact
     frictions[block.friction].first[lane] = ratio * along.first.dot(friction);
     frictions[block.friction].second[lane] = ratio * along.second.dot(friction);
   }
-  prepare(index, lane, bodies, nullptr);
+  prepare(index, lane, bodies, {}, nullptr);
 }
 
 void ContactBlocks::prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a,
@@ -381,7 +382,7 @@ void ContactBlocks::prepare_drift(ContactBlock& block, std::uint32_t row, int la
 }
 
 void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<IslandBody>& bodies,
-                            const BodyLanes* displacements) {
+                            std::span<const BodyTurn> turns, const BodyLanes* displacements) {
   ContactBlock& block = blocks[index];
   const ContactConstraint& contact = *origins[index][static_cast<std::size_t>(lane)];
   const IslandBody& a = bodies[block.a[lane]];
@@ -399,11 +400,11 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
   std::array<Vec3, 4> arms;
   const step::Tangents along{lane_of(block.tangent1, lane), lane_of(block.tangent2, lane)};
   const double share = 1.0 / contact.count;
-  const auto turn_of = [displacements](const IslandBody& body) -> Quat {
+  const auto turn_of = [&](std::uint32_t place) -> Quat {
     if (!displacements) return Quat::Identity();
-    return body.rotation * body.start_rotation.conjugate();
+    return turns[place].after(bodies[place].rotation) * bodies[place].start_rotation.conjugate();
   };
-  const Quat turn_a = turn_of(a), turn_b = turn_of(b);
+  const Quat turn_a = turn_of(block.a[lane]), turn_b = turn_of(block.b[lane]);
   for (int i = 0; i < contact.count; ++i) {
     const PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
     PointRow& row = points[block.point + static_cast<std::uint32_t>(i)];

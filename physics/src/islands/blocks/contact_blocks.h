@@ -27,7 +27,8 @@ class ContactBlocks {
              const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings, double h,
              const threads::Workers& work);
   /// Updates the rows of one contact to the present positions of its bodies.
-  void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, const BodyLanes* displacements);
+  void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, std::span<const BodyTurn> turns,
+               const BodyLanes* displacements);
   /// In a sub-step with led bodies: adds what the slip of their riders lacks.
   void ride(const std::vector<IslandBody>& bodies, std::span<const step::LedBody> led,
             const std::vector<BodyLanes>& starts, double h);
@@ -59,9 +60,9 @@ class ContactBlocks {
   std::vector<ContactBlock> blocks;
   std::vector<BallBlock> balls;
   std::size_t pairs = 0, ball_pairs = 0;  ///< those of two movable bodies come first
-  std::vector<PointRow> points;        ///< more than are used
-  std::vector<FrictionRow> frictions;  ///< more than are used
-  std::vector<DriftRow> drifts;  ///< parallel to `frictions`, or empty if no surface moves and nothing is led
+  std::vector<PointRow> points;           ///< more than are used
+  std::vector<FrictionRow> frictions;     ///< more than are used
+  std::vector<DriftRow> drifts;           ///< parallel to `frictions`, or empty if no surface moves and nothing is led
   std::vector<InertiaRow> inertias;
   std::vector<MeetingRow> meetings, ball_meetings;
   std::vector<Origin> origins, ball_origins;

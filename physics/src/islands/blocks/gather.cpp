@@ -112,7 +112,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   uneven_.clear();
   rebounds_.clear();  // of the island before
   led_.clear();
-  bouncy_ = meets_ = conveyed_ = any_stale_ = driven_ = carries_on_ = false;
+  bouncy_ = meets_ = conveyed_ = any_stale_ = driven_ = rebounded_ = false;
   for (std::uint32_t i = 1; i < count; ++i) {
     conveyed_ = conveyed_ || traits_[i].conveys;
     driven_ = driven_ || traits_[i].driven;

@@ -47,7 +47,7 @@ struct alignas(64) BodyPace {
 
 /// How far a body has turned.
 struct alignas(32) BodyTurn {
-  double turned = 0;     ///< since its rows were prepared, rad
+  double turned = 0;      ///< since its rows were prepared, rad
   double latest[3] = {};  ///< rotation vector of a steady body that its rotation does not include yet
 
   /// Adds a turn that follows, by the first terms of the series of Baker, Campbell and Hausdorff: right to a rounding
@@ -63,6 +63,13 @@ struct alignas(32) BodyTurn {
     return latest[0] * latest[0] + latest[1] * latest[1] + latest[2] * latest[2] > short_turn * short_turn;
   }
   static constexpr double short_turn = 1e-3;  ///< rad
+  [[nodiscard]] Quat after(const Quat& rotation) const {
+    const Vec3 turn(latest[0], latest[1], latest[2]);
+    if (turn == Vec3::Zero()) return rotation;
+    Quat now = exp_map(turn) * rotation;
+    now.normalize();
+    return now;
+  }
 };
 
 /// A body of an island while its contacts are being solved; its velocity is kept apart.
@@ -84,7 +91,7 @@ struct alignas(64) IslandBody {
   double inverse_mass = 0;
   double inverse_moment = 0;            ///< of an isotropic body
   Mat3 inverse_inertia = Mat3::Zero();  ///< world axes, when its rows were prepared
-  Vec3 center{0, 0, 0};  ///< of a steady body: at the start of the step, until its end
+  Vec3 center{0, 0, 0};                 ///< of a steady body: at the start of the step, until its end
   Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
   Quat free_rotation{1, 0, 0, 0};     ///< at the end of the sub-step if nothing touches it
   std::uint32_t led = step::not_led;  ///< its index among the led bodies

@@ -18,8 +18,7 @@ struct Arms {
 Arms arms_of(const ContactConstraint& contact, std::size_t i, const IslandBody& a, const IslandBody& b) {
   const PointConstraint& point = contact.points[i];
   const Vec3 skin_a = point.skin_a * contact.manifold.normal, skin_b = -point.skin_b * contact.manifold.normal;
-  const Quat turn_a = a.rotation * a.start_rotation.conjugate(),
-             turn_b = b.rotation * b.start_rotation.conjugate();
+  const Quat turn_a = a.rotation * a.start_rotation.conjugate(), turn_b = b.rotation * b.start_rotation.conjugate();
   return {state::carried(turn_a, point.start_arm_a, skin_a), state::carried(turn_b, point.start_arm_b, skin_b),
           turn_a * (point.start_arm_a - skin_a), turn_b * (point.start_arm_b - skin_b)};
 }

@@ -38,7 +38,7 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
                                  int sub_steps, int sub_step) {
   const double h = dt / sub_steps;
   lead(dt, sub_steps, sub_step);
-  carries_on_ = carries_on_ && !any_stale_;
+  carries_on_ = sub_step > 0 && joints_.empty() && holds_.empty();
   each_body([&](std::size_t i) {
     const BodyPace& pace = paces_[i];
     BodyLanes& velocity = velocities_[i];
@@ -46,7 +46,7 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
     if (pace.steady) {
       starts_[i] = velocity;
       for (int k = 0; k < 4; ++k) velocity.linear[k] += pace.acceleration[k] * h;
-      carry_on(i, starts_[i]);
+      carry_on(i, rebounded_ ? ended_[i] : starts_[i]);
       return;
     }
     IslandBody& entry = bodies_[i];
@@ -55,7 +55,7 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
     if (pace.movable) {
       starts_[i] = velocity;
       begin_sub_step_of(i, bodies[entry.index], loads[entry.index], h);
-      carry_on(i, pace.even ? starts_[i] : ended_[i]);
+      carry_on(i, pace.even && !rebounded_ ? starts_[i] : ended_[i]);
     } else if (entry.led == step::not_led) {
       starts_[i] = {};
     }
@@ -134,7 +134,6 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
     double& turned = turns_[i].turned;
     entry.stale = !entry.round && turned > (entry.led == step::not_led ? turned_enough_ : 0);
     if (entry.stale) turned = 0;
-    if (paces_[i].steady) include_turn(i);
     if (!entry.movable) return;
     if (entry.stale || (!joints_.empty() && !bodies[entry.index].spherical()))
       entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
@@ -145,18 +144,14 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
       for (int lane = 0; lane < lane_count; ++lane)
         if (contacts_.origins[i][static_cast<std::size_t>(lane)] &&
             (bodies_[block.a[lane]].stale || bodies_[block.b[lane]].stale))
-          contacts_.prepare(i, lane, bodies_, displacements_.data());
+          contacts_.prepare(i, lane, bodies_, turns_, displacements_.data());
     }
   });
 }
 
 void BlockSolver::include_turn(std::size_t place) {
   BodyTurn& turn = turns_[place];
-  const Vec3 latest(turn.latest[0], turn.latest[1], turn.latest[2]);
-  if (latest == Vec3::Zero()) return;
-  Quat& rotation = bodies_[place].rotation;
-  rotation = exp_map(latest) * rotation;
-  rotation.normalize();
+  bodies_[place].rotation = turn.after(bodies_[place].rotation);
   std::fill_n(turn.latest, 3, 0.0);
 }
 

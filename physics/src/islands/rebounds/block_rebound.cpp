@@ -122,14 +122,26 @@ bool BlockSolver::springs_back_dully() const {
 void BlockSolver::start_anew(const MeetingPoint& one, double share) {
   const std::size_t index = one.lane / lane_count;
   const int lane = static_cast<int>(one.lane % lane_count);
+  const auto let_go = [this](std::uint32_t place, const Vec3& impulse, const Vec3& turn) {
+    if (!bodies_[place].movable) return;
+    add(ended_[place].linear, bodies_[place].inverse_mass * impulse);
+    add(ended_[place].angular, bodies_[place].inverse_inertia * turn);
+  };
   if (index >= contacts_.blocks.size()) {
     BallBlock& ball = contacts_.balls[index - contacts_.blocks.size()];
+    const Vec3 gone = (1 - share) * ball.impulse[lane] * lane_of(ball.normal, lane);
+    let_go(ball.a[lane], gone, Vec3::Zero());
+    let_go(ball.b[lane], -gone, Vec3::Zero());
     ball.impulse[lane] *= share;
     ball.back[lane] = 0;
     return;
   }
   ContactBlock& block = contacts_.blocks[index];
   PointRow& row = contacts_.points[block.point + one.point];
+  const double gone = (1 - share) * row.impulse[lane];
+  const Vec3 normal = lane_of(block.normal, lane);
+  let_go(block.a[lane], gone * normal, gone * lane_of(row.turn_a, lane));
+  let_go(block.b[lane], -gone * normal, -gone * lane_of(row.turn_b, lane));
   row.impulse[lane] *= share;
   row.back[lane] = 0;
   block.springs = false;
@@ -385,6 +397,7 @@ void BlockSolver::rebound(const std::vector<state::Body>& bodies, const std::vec
   };
   put_back(reach_.contacts());
   put_back(reach_.balls());
+  for (const Rebound& rebound : rebounds_) start_anew({rebound.lane, rebound.point}, 0);
 }
 
 }  // namespace tweenfall::blocks

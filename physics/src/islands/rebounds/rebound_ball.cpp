@@ -70,7 +70,6 @@ void ReboundBall::put_back(ContactBlocks& contacts) const {
   const int lane = static_cast<int>(lane_ % lane_count);
   BallBlock& block = contacts.balls[lane_ / lane_count - contacts.blocks.size()];
   block.total[lane] += given(0);
-  if (wanted_ > 0) block.impulse[lane] = 0;
   const Vec3 dragged = friction_ - friction_before_;
   block.total_friction.x[lane] += dragged.x();
   block.total_friction.y[lane] += dragged.y();

@@ -149,11 +149,7 @@ void ReboundContact::put_back(ContactBlocks& contacts) const {
   const std::size_t i = lane_ / lane_count;
   const int lane = static_cast<int>(lane_ % lane_count);
   const ContactBlock& block = contacts.blocks[i];
-  for (std::size_t k = 0; k < count_; ++k) {
-    PointRow& row = contacts.points[block.point + k];
-    row.total[lane] += given(k);
-    if (points_[k].wanted > 0) row.impulse[lane] = 0;
-  }
+  for (std::size_t k = 0; k < count_; ++k) contacts.points[block.point + k].total[lane] += given(k);
   for (std::size_t k = 0; k < frictions_; ++k) {
     FrictionRow& row = contacts.frictions[block.friction + k];
     row.total_first[lane] += rows_[k].first - rows_[k].first_before;

@@ -20,7 +20,7 @@ class ReboundContact {
   /// Lets only a share of the change through.
   void take_back(double share);
   /// Adds what it gave to the totals. A blow says nothing about the forces after it: the next sub-step starts with the
-  /// impulses from before the rebound, and with none where something bounced off.
+  /// impulses from before the rebound.
   void put_back(ContactBlocks& contacts) const;
 
   [[nodiscard]] std::uint32_t a() const { return a_; }
