@@ -138,15 +138,24 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
     if (entry.stale || (!joints_.empty() && !bodies[entry.index].spherical()))
       entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
   });
-  work_.ranges(contacts_.blocks.size(), blocks_worth_a_part, [&](std::size_t begin, std::size_t end) {
+  const auto prepare = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const ContactBlock& block = contacts_.blocks[i];
-      for (int lane = 0; lane < lane_count; ++lane)
-        if (contacts_.origins[i][static_cast<std::size_t>(lane)] &&
-            (bodies_[block.a[lane]].stale || bodies_[block.b[lane]].stale))
-          contacts_.prepare(i, lane, bodies_, turns_, displacements_.data());
+      for (int lane = 0; lane < lane_count; ++lane) {
+        if (!contacts_.origins[i][static_cast<std::size_t>(lane)]) continue;
+        if (!bodies_[block.a[lane]].stale && !bodies_[block.b[lane]].stale) continue;
+        // What it gave in the sub-step before is given anew, where it acts now.
+        if (carries_on_) contacts_.give(i, lane, -1, bodies_, velocities_);
+        contacts_.prepare(i, lane, bodies_, turns_, displacements_.data());
+        if (carries_on_) contacts_.give(i, lane, 1, bodies_, velocities_);
+      }
     }
-  });
+  };
+  if (work_.threads() == 1) return prepare(0, contacts_.blocks.size());
+  for (const ContactBlocks::Phase& phase : contacts_.phases)
+    if (!phase.of_balls)
+      work_.ranges(phase.end - phase.begin, blocks_worth_a_part,
+                   [&](std::size_t begin, std::size_t end) { prepare(phase.begin + begin, phase.begin + end); });
 }
 
 void BlockSolver::include_turn(std::size_t place) {
