@@ -42,29 +42,39 @@ void World::Implementation::find_beyond(std::uint32_t index, std::span<contacts:
   if (count > near.size()) return;
   std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count));
   const auto pair_of = [](const auto& of) { return pairs::Pair(of.a, of.b); };
-  const auto is_known = [&](const pairs::Pair& pair) {
+  const auto is_contact = [&](const pairs::Pair& pair) {
     const auto contact = std::lower_bound(active.begin(), active.end(), pair,
                                           [&](const auto* one, const auto& than) { return pair_of(*one) < than; });
-    const auto follows = [&](const contacts::Followers& one) { return pair_of(one.link) == pair; };
     const std::span<contacts::ContactConstraint> made = followers.all();
     return (contact != active.end() && pair_of(**contact) == pair) ||
-           std::any_of(made.begin(), made.end(), [&](const auto& one) { return pair_of(one) == pair; }) ||
-           std::any_of(beyond.begin(), beyond.end(), follows) ||
-           std::any_of(parts.begin(), parts.end(), [&](const contacts::FoundPart& part) {
-             return std::any_of(part.followers.begin(), part.followers.end(), follows);
-           });
+           std::any_of(made.begin(), made.end(), [&](const auto& one) { return pair_of(one) == pair; });
+  };
+  const std::span<const std::uint32_t> sorted = memories.sorted();
+  const auto memory_of = [&](const pairs::Pair& pair) {
+    const auto at = std::lower_bound(sorted.begin(), sorted.end(), pair, [&](std::uint32_t place, const auto& than) {
+      return pair_of(memories[place]) < than;
+    });
+    return at != sorted.end() && pair_of(memories[*at]) == pair ? *at : state::ContactMemories::nowhere;
   };
   for (const std::uint32_t other : std::span(near).first(count)) {
     const pairs::Pair pair(std::min(index, other), std::max(index, other));
+    const auto is_it = [&](const contacts::Followers& one) { return pair_of(one.link) == pair; };
     if (looked_at[other] != look) {
       looked_at[other] = look;
       passages[other] = collision::passage_of(bodies[other], loads[other], dt);
     }
-    if (!passages[other].simple || is_known(pair)) continue;
+    if (!passages[other].simple || is_contact(pair) || std::any_of(beyond.begin(), beyond.end(), is_it)) continue;
     contacts::Followers follower;
     follower.link.a = pair.first;
     follower.link.b = pair.second;
+    follower.memory = memory_of(pair);
     follower.known = false;
+    // Whether it was among the others may depend on a direction of earlier steps, but no result must.
+    for (contacts::FoundPart& part : parts)
+      if (const auto known = std::ranges::find_if(part.followers, is_it); known != part.followers.end()) {
+        follower = *known;
+        part.followers.erase(known);
+      }
     follower.beyond = true;
     beyond.push_back(follower);
   }
