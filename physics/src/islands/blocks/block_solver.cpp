@@ -199,7 +199,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     if (bouncy_ || blows) find_meetings(h);
     // Joints have the last word: what a contact then lacks, the next sub-step supplies.
     for (int k = 0; k < softening; ++k) {
-      soft.measures = k == 0;
+      soft.measures = k == 0 && !(bouncy_ || blows);
       soft.note = k + 1 == softening;
       holds_.solve(bodies, bodies_, contacts_, velocities_);
       by_color([&](const Rows& some) { kernels.solve(some, soft); });

@@ -153,7 +153,7 @@ struct Kernels {
   void (*solve)(const Rows& rows, const PassRule& rule);
   /// Removes from the lags of pressed bodies what a contact holds: the part along the normal, or all of it.
   void (*hold)(const Rows& rows);
-  /// Finds what may meet in the sub-step fast enough to rebound, and its gaps: lanes as 8 * block + lane, in order;
+  /// Finds the gaps, and what may meet in the sub-step fast enough to rebound: lanes as 8 * block + lane, in order;
   /// balls after all blocks. `starts`: velocities at the start of the sub-step; `found`: room for all lanes. Returns
   /// how many.
   std::size_t (*find_meetings)(const Rows& rows, const BodyLanes* starts, double h, std::uint32_t* found);

@@ -443,46 +443,34 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
   block.twist_mass[lane] = inverse > 0 ? 1 / inverse : 0;
 }
 
-void ContactBlocks::give(std::size_t index, int lane, double share, const std::vector<IslandBody>& bodies,
-                         std::vector<BodyLanes>& velocities) const {
+ContactBlocks::Spins ContactBlocks::given_spins(std::size_t index, int lane) const {
   const ContactBlock& block = blocks[index];
-  const Vec3 normal = lane_of(block.normal, lane);
-  Vec3 impulse = Vec3::Zero(), turn_a = Vec3::Zero(), turn_b = Vec3::Zero();
+  const Vec3 twist = block.central() ? Vec3(block.twist[lane] * lane_of(block.normal, lane)) : Vec3(Vec3::Zero());
+  Vec3 turn_a = twist, turn_b = twist;
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(block.points); ++i) {
     const PointRow& row = points[block.point + i];
-    if (row.impulse[lane] == 0) continue;
-    impulse += row.impulse[lane] * normal;
-    turn_a += row.impulse[lane] * lane_of(row.turn_a, lane);
-    turn_b += row.impulse[lane] * lane_of(row.turn_b, lane);
+    const double impulse = row.impulse[lane];
+    if (impulse == 0) continue;
+    turn_a += impulse * lane_of(row.turn_a, lane);
+    turn_b += impulse * lane_of(row.turn_b, lane);
   }
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(block.frictions); ++i) {
     const FrictionRow& row = frictions[block.friction + i];
     const double first = row.first[lane], second = row.second[lane];
     if (first == 0 && second == 0) continue;
-    impulse += first * lane_of(block.tangent1, lane) + second * lane_of(block.tangent2, lane);
     turn_a += first * lane_of(row.first_a, lane) + second * lane_of(row.second_a, lane);
     turn_b += first * lane_of(row.first_b, lane) + second * lane_of(row.second_b, lane);
   }
-  if (block.central()) {
-    turn_a += block.twist[lane] * normal;
-    turn_b += block.twist[lane] * normal;
-  }
-  const auto push = [&](std::uint32_t place, double by, const Vec3& turn, const LanesSymmetric* inverse,
-                        double moment) {
-    if (!bodies[place].movable) return;
-    BodyLanes& velocity = velocities[place];
-    add(velocity.linear, by * bodies[place].inverse_mass * impulse);
-    if (!inverse) return add(velocity.angular, by * moment * turn);
+  if (block.even) return {-block.inverse_moment_a[lane] * turn_a, block.inverse_moment_b[lane] * turn_b};
+  const auto times = [lane](const LanesSymmetric& inverse, const Vec3& turn) -> Vec3 {
     const auto along = [&](const Lanes& x, const Lanes& y, const Lanes& z) {
       return x[lane] * turn.x() + y[lane] * turn.y() + z[lane] * turn.z();
     };
-    add(velocity.angular,
-        by * Vec3(along(inverse->xx, inverse->xy, inverse->xz), along(inverse->xy, inverse->yy, inverse->yz),
-                  along(inverse->xz, inverse->yz, inverse->zz)));
+    return {along(inverse.xx, inverse.xy, inverse.xz), along(inverse.xy, inverse.yy, inverse.yz),
+            along(inverse.xz, inverse.yz, inverse.zz)};
   };
-  const InertiaRow* inertia = block.even ? nullptr : &inertias[block.inertia];
-  push(block.a[lane], -share, turn_a, inertia ? &inertia->inverse_a : nullptr, block.inverse_moment_a[lane]);
-  push(block.b[lane], share, turn_b, inertia ? &inertia->inverse_b : nullptr, block.inverse_moment_b[lane]);
+  const InertiaRow& inertia = inertias[block.inertia];
+  return {-times(inertia.inverse_a, turn_a), times(inertia.inverse_b, turn_b)};
 }
 
 void ContactBlocks::store(double h, double dt, double parts, const threads::Workers& work) {

@@ -29,9 +29,11 @@ class ContactBlocks {
   /// Updates the rows of one contact to the present positions of its bodies.
   void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, std::span<const BodyTurn> turns,
                const BodyLanes* displacements);
-  /// Gives the bodies of one contact a share of its impulses once more.
-  void give(std::size_t block, int lane, double share, const std::vector<IslandBody>& bodies,
-            std::vector<BodyLanes>& velocities) const;
+  /// The spins that its impulses give the two bodies of a contact, rad/s.
+  struct Spins {
+    Vec3 a, b;
+  };
+  [[nodiscard]] Spins given_spins(std::size_t block, int lane) const;
   /// In a sub-step with led bodies: adds what the slip of their riders lacks.
   void ride(const std::vector<IslandBody>& bodies, std::span<const step::LedBody> led,
             const std::vector<BodyLanes>& starts, double h);

@@ -144,10 +144,16 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
       for (int lane = 0; lane < lane_count; ++lane) {
         if (!contacts_.origins[i][static_cast<std::size_t>(lane)]) continue;
         if (!bodies_[block.a[lane]].stale && !bodies_[block.b[lane]].stale) continue;
-        // What it gave in the sub-step before is given anew, where it acts now.
-        if (carries_on_) contacts_.give(i, lane, -1, bodies_, velocities_);
+        if (!carries_on_) {
+          contacts_.prepare(i, lane, bodies_, turns_, displacements_.data());
+          continue;
+        }
+        // What it gave in the sub-step before now acts elsewhere.
+        const ContactBlocks::Spins before = contacts_.given_spins(i, lane);
         contacts_.prepare(i, lane, bodies_, turns_, displacements_.data());
-        if (carries_on_) contacts_.give(i, lane, 1, bodies_, velocities_);
+        const ContactBlocks::Spins now = contacts_.given_spins(i, lane);
+        if (bodies_[block.a[lane]].movable) add(velocities_[block.a[lane]].angular, now.a - before.a);
+        if (bodies_[block.b[lane]].movable) add(velocities_[block.b[lane]].angular, now.b - before.b);
       }
     }
   };

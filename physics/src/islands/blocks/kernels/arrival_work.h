@@ -81,8 +81,8 @@ struct ArrivalWork : LaneWork<Register> {
     for (std::size_t i = 0; i < rows.count; ++i) {
       const ContactBlock& block = rows.blocks[i];
       const MeetingRow& meetings = rows.meetings[i];
-      if (!(Number(meetings.heeded) > Number(0.0)).any()) continue;
       measure(rows, block);
+      if (!(Number(meetings.heeded) > Number(0.0)).any()) continue;
       const Number along = dot(block.normal, linear(starts, block.a) - linear(starts, block.b));
       const Vector angular_a = angular(starts, block.a), angular_b = angular(starts, block.b);
       Which meets = along > along;
