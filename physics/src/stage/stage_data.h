@@ -214,6 +214,7 @@ struct StageState {
   std::vector<char> present;                 ///< by node
   std::vector<std::optional<Color>> colors;  ///< by node, if no color is animated
   std::vector<StagedBody> bodies;
+  bool ramps = true;                              ///< whether some body may be on a ramp
   std::vector<std::size_t> unused;                ///< places in `bodies` of those that have left
   std::vector<std::size_t> body_of;               ///< by node; `no_body` for none
   std::vector<NodeId> node_of;                    ///< by index of the world's body

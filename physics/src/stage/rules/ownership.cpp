@@ -191,6 +191,7 @@ bool change_owner(StageState& state, std::size_t index, const OwnerChange& chang
   body.by_track = false;
   body.saturated_for = 0;
   body.ramp = ramp;
+  state.ramps = state.ramps || ramp;
   body.coming.reset();
   happenings.push_back({instant, handoff});
   return true;

@@ -53,8 +53,11 @@ Drive drive_on(const Ramp& ramp, double time) {
 }
 
 void follow_ramps(StageState& state) {
+  if (!state.ramps) return;
+  state.ramps = false;
   for (const StagedBody& body : state.bodies) {
     if (!body.present || !body.ramp) continue;
+    state.ramps = true;
     // Setting a drive is a change to a body even if it is the same, so it is avoided.
     const Drive drive = drive_on(*body.ramp, state.time);
     if (drive != state.world.drive(body.id)) state.world.set_drive(body.id, drive);
