@@ -109,7 +109,7 @@ struct PassRule {
   Lanes inverse_h = all(0);  ///< of the sub-step, 1/s
   Lanes enough = all(0);     ///< with several passes: a smaller change no longer matters, per speed from the impulses
   int passes = 1;            ///< more than one only if no two lanes share a movable body
-  bool measures = false;     ///< finds the gaps of the sub-step before
+  bool measures = false;     ///< first finds the gaps of the sub-step
   bool note = false;         ///< records what is pressed and held
   bool springs = false;      ///< what is pressed springs back
   bool sum_up = false;       ///< adds the impulses to the totals
