@@ -221,7 +221,8 @@ struct FigureWork : FigureWriting<Register> {
     read(figures);
     Number live = used_of(figures);
     Number again = live;
-    admit(figures, live, moving);
+    // Afterwards the factors at hand are tried first.
+    if (moving) admit(figures, live, moving);
     Number ending = nothing();  // lanes that are solved for the last time, each after as many rounds as it needs
     bool finished = false;
     for (int round = 0;; ++round) {
