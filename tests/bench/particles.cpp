@@ -1,5 +1,6 @@
 // A hundred thousand particles through a sixtieth of a second on one core, which at 60 Hz may take 16.7 ms: falling, in
-// a wind and around an attractor, and among bodies. The counter gives milliseconds of the processor per step.
+// a wind and around an attractor, under formulas, and among bodies. The counter gives milliseconds of the processor per
+// step.
 
 #include <tweenfall/physics/particles.h>
 
@@ -45,6 +46,24 @@ void blown_around(benchmark::State& state) {
   tell(state);
 }
 BENCHMARK(blown_around);
+
+void under_a_formula(benchmark::State& state, const ForceFormula& formula, Integrator integrator) {
+  Particles particles = spread(integrator);
+  particles.add_force(formula);
+  for (auto _ : state) particles.step(1e-6);
+  tell(state);
+}
+const ForceFormula waves({"-mass*sin(3*x + t)", "mass*cos(2*y)*exp(-0.1*z^2)", "-0.1*mass*vz/(1 + x^2)"});
+BENCHMARK_CAPTURE(under_a_formula, waves, waves, Integrator::exact_quadratic);
+BENCHMARK_CAPTURE(under_a_formula, waves_by_rk4, waves, Integrator::rk4);
+BENCHMARK_CAPTURE(under_a_formula, waves_by_backward_euler, waves, Integrator::backward_euler);
+BENCHMARK_CAPTURE(under_a_formula, linear, ForceFormula({"-mass*x", "-0.1*mass*y", "mass*sin(3*t)"}),
+                  Integrator::exact_quadratic);
+BENCHMARK_CAPTURE(under_a_formula, potential, ForceFormula::potential("mass*(0.5*x^2 + sin(y)*cos(z))"),
+                  Integrator::exact_quadratic);
+BENCHMARK_CAPTURE(under_a_formula, jumping,
+                  ForceFormula({"mass*floor(2*x)", "mass*abs(y)^0.5", "mass*log(1 + z^2)*sqrt(1 + x^2)"}),
+                  Integrator::exact_quadratic);
 
 void among_bodies(benchmark::State& state) {
   World world;

@@ -13,10 +13,11 @@ struct ExpressionFunction {
   std::string_view name;       // as written: "+", "clamp"
   std::string_view arguments;  // "x, low, high"
   int count;                   // of the arguments
-  bool any_number;             // more arguments are folded: max(a, b, c) = max(max(a, b), c)
   /// `way` is 1 for the limit from later, -1 for that from earlier: it decides where the function jumps or kinks.
   math::Jet (*apply)(const math::Jet* arguments, double way) noexcept;
-  bool jumps = false;  // somewhere, from one value to another
+  std::size_t kind;         // its place among `kinds::All`
+  bool jumps = false;       // somewhere, from one value to another
+  bool any_number = false;  // more arguments are folded: max(a, b, c) = max(max(a, b), c)
 };
 
 /// Those with a name, in the order the documentation lists them.

@@ -4,15 +4,12 @@
 #include <cstdint>
 #include <limits>
 
-#include "math/double_double.h"
+#include "math/elementary_series.h"
 
 namespace tweenfall::elementary {
 namespace {
 
-// pi/2 in parts of 23 bits, so that products with a quadrant number up to 2^30 are exact.
-constexpr double half_pi_parts[5] = {0x1.921fb40000000p+0, 0x1.4442d00000000p-24, 0x1.8469880000000p-48,
-                                     0x1.8cc5140000000p-72, 0x1.80dc1cd129025p-95};
-constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
+using namespace series;
 
 // The bits of 2/pi after the point, enough for the largest double.
 constexpr std::uint32_t two_over_pi_bits[] = {
@@ -79,41 +76,11 @@ Reduced reduce_large(double x) noexcept {
 }
 
 Reduced reduce(double x) noexcept {
-  if (std::abs(x) <= 0x1.921fb54442d18p-1) return {{x, 0}, 0};
+  if (std::abs(x) <= quarter_pi) return {{x, 0}, 0};
   if (!std::isfinite(x)) return {{std::numeric_limits<double>::quiet_NaN(), 0}, 0};
-  if (std::abs(x) > 0x1p30) return reduce_large(x);
-  const double k = std::floor(x * two_over_pi + 0.5);
-  two_part::Sum r = {x, 0};
-  for (const double part : half_pi_parts) {
-    const double p = k * part;
-    const two_part::Sum s = two_part::sum(r.high, -p);
-    r = two_part::quick_sum(s.high, s.low + r.low);
-  }
-  return {r, static_cast<int>(k - 4 * std::floor(k / 4))};
-}
-
-// Taylor series; on |r| <= pi/4 the terms left out are below 1e-19.
-two_part::Sum sin_kernel(const two_part::Sum& r) noexcept {
-  const double z = r.high * r.high;
-  const double p =
-      -1.0 / 6 +
-      z * (1.0 / 120 +
-           z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (-1.0 / 39916800 + z * (1.0 / 6227020800.0 +
-                                                                              z * (-1.0 / 1307674368000.0 +
-                                                                                   z * (1.0 / 355687428096000.0)))))));
-  return two_part::quick_sum(r.high, r.high * z * p + r.low * (1 - 0.5 * z));
-}
-
-two_part::Sum cos_kernel(const two_part::Sum& r) noexcept {
-  const two_part::Sum square = two_part::product(r.high, r.high);
-  const double z = square.high;
-  const double p =
-      1.0 / 24 +
-      z * (-1.0 / 720 +
-           z * (1.0 / 40320 + z * (-1.0 / 3628800 + z * (1.0 / 479001600.0 +
-                                                         z * (-1.0 / 87178291200.0 + z * (1.0 / 20922789888000.0))))));
-  const two_part::Sum head = two_part::quick_sum(1, -0.5 * z);
-  return two_part::quick_sum(head.high, head.low + (z * z * p - 0.5 * square.low - r.high * r.low));
+  if (std::abs(x) > largest_angle) return reduce_large(x);
+  const double k = quadrants_of(x);
+  return {less_quadrants(x, k), static_cast<int>(k - 4 * std::floor(k / 4))};
 }
 
 struct Pair {
@@ -122,7 +89,7 @@ struct Pair {
 
 Pair both(double x) noexcept {
   const Reduced r = reduce(x);
-  const two_part::Sum s = sin_kernel(r.angle), c = cos_kernel(r.angle);
+  const two_part::Sum s = sin_of(r.angle), c = cos_of(r.angle);
   switch (r.quadrant) {
     case 0:
       return {s, c};

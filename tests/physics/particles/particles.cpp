@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 
+#include "curves/counted_allocations.h"
 #include "physics/step/methods.h"
 #include "processor_time.h"
 #include "support.h"
@@ -286,6 +287,36 @@ TEST_CASE("a stream has rate times life of particles, each dies at its age, and 
   run(particles, 1, 60);
   run(copy, 1, 60);
   for (std::size_t i = 0; i < copy.size(); ++i) CHECK(particles.position(i) == copy.position(i));
+}
+
+TEST_CASE("many particles under formulas move as each would alone, to the last bit, and a step takes no memory") {
+  const ForceFormula formulas[] = {
+      ForceFormula({"-mass*sin(3*x + t)", "mass*cos(2*y)*exp(-0.1*z^2)", "floor(x) - 0.1*vz*abs(y)^1.5"}),
+      ForceFormula({"1/x", "log(y)", "z^z*step(0.02, t)"}), ForceFormula::potential("mass*(x^2*y + abs(z - x)*t)")};
+  for (const Integrator integrator : {Integrator::exact_quadratic, Integrator::rk4, Integrator::backward_euler}) {
+    const ParticleSettings settings{.integrator = integrator, .mass = 0.3};
+    Particles together(settings);
+    std::vector<Particles> alone;
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 place(0.03 * (i % 37) - 0.5, 0.1 * (i % 11), 0.7 - 0.01 * i), velocity(0.1 * (i % 5), -0.2, 0.3);
+      together.emit(place, velocity);
+      alone.emplace_back(settings).emit(place, velocity);
+    }
+    for (const ForceFormula& formula : formulas) {
+      together.add_force(formula, 0.7);
+      for (Particles& one : alone) one.add_force(formula, 0.7);
+    }
+    run(together, 0.05, 3);
+    for (Particles& one : alone) run(one, 0.05, 3);
+    REQUIRE(together.size() == alone.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      REQUIRE(together.position(i) == alone[i].position(0));
+      REQUIRE(together.velocity(i) == alone[i].velocity(0));
+    }
+    const std::size_t before = test::allocations();
+    together.step(1.0 / 60);
+    CHECK(test::allocations() == before);
+  }
 }
 
 TEST_CASE("once there are as many particles as there may be, what stays out takes no time") {

@@ -49,7 +49,8 @@ void Particles::step(double dt, const World& world) {
 }
 
 void Particles::advance(double dt, const World* world) {
-  state::require(dt > 0 && std::isfinite(dt), "a step must be positive and finite");
+  // Not by a check that makes its words in any case: a step takes no memory.
+  if (!(dt > 0 && std::isfinite(dt))) throw std::invalid_argument("a step must be positive and finite");
   std::optional<particles::Colliders> colliders;
   if (world) colliders.emplace(*world, dt, settings_.radius, settings_.restitution, settings_.friction);
   const particles::Colliders* among = colliders && !colliders->empty() ? &*colliders : nullptr;
@@ -62,12 +63,16 @@ void Particles::advance(double dt, const World* world) {
 void Particles::move(std::size_t first, std::size_t behind, double from, double dt,
                      const particles::Colliders* colliders) {
   using particles::most_together;
-  std::vector<particles::PullingForce> forces;
+  // A few need no memory of their own.
+  std::array<particles::PullingForce, 8> few;
+  std::vector<particles::PullingForce> many(forces_.size() > few.size() ? forces_.size() : 0);
+  const std::span<particles::PullingForce> forces =
+      many.empty() ? std::span(few).first(forces_.size()) : std::span(many);
   particles::Pulling pulling{settings_.gravity, settings_.mass, settings_.radius, {}, true};
-  for (const Acting& acting : forces_) {
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
+    const Acting& acting = forces_[i];
     const Strength& strength = acting.strength;
-    forces.push_back(
-        {&acting.force, strength.at(from), strength.at(from + 0.5 * dt), strength.at(from + dt, Side::in)});
+    forces[i] = {&acting.force, strength.at(from), strength.at(from + 0.5 * dt), strength.at(from + dt, Side::in)};
     pulling.steady = pulling.steady && particles::is_steady(acting.force) && !strength.changes(from, from + dt);
   }
   pulling.forces = forces;

@@ -77,24 +77,27 @@ struct Adding {
     }
   }
   void operator()(const ForceFormula& kind) const {
-    each(
-        [&](const Vec3& place, const Vec3& velocity) { return kind.force(pulling.mass, place, velocity, time, side); });
+    const auto given = [&](const Lists& lists) -> ForceFormula::Lists {
+      return {std::span(lists[0]).first(count), std::span(lists[1]).first(count), std::span(lists[2]).first(count)};
+    };
+    Lists force;
+    kind.forces(pulling.mass, given(places), given(speeds), time, side,
+                {std::span(force[0]).first(count), std::span(force[1]).first(count), std::span(force[2]).first(count)});
+    const double share = strength / pulling.mass;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < count; ++i) pulls.acceleration[axis][i] += share * force[axis][i];
   }
   void operator()(const Field& kind) const {
-    each([&](const Vec3& place, const Vec3& velocity) { return kind(pulling.mass, place, velocity, time); });
+    for (std::size_t i = 0; i < count; ++i)
+      add(i, strength / pulling.mass *
+                 kind(pulling.mass, Vec3(places[0][i], places[1][i], places[2][i]),
+                      Vec3(speeds[0][i], speeds[1][i], speeds[2][i]), time));
   }
   // Only for bodies
   template <class Kind>
   void operator()(const Kind&) const {}
 
  private:
-  template <class ForceAt>
-  void each(const ForceAt& force_at) const {
-    for (std::size_t i = 0; i < count; ++i)
-      add(i,
-          strength / pulling.mass *
-              force_at(Vec3(places[0][i], places[1][i], places[2][i]), Vec3(speeds[0][i], speeds[1][i], speeds[2][i])));
-  }
   void add(std::size_t i, const Vec3& acceleration) const {
     pulls.acceleration[0][i] += acceleration.x();
     pulls.acceleration[1][i] += acceleration.y();

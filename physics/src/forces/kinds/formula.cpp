@@ -64,6 +64,20 @@ Vec3 ForceFormula::force(double mass, const Vec3& position, const Vec3& velocity
   return force;
 }
 
+void ForceFormula::forces(double mass, const Lists& positions, const Lists& velocities, double time, Side side,
+                          const std::array<std::span<double>, 3>& out) const noexcept {
+  time = forces::beside_leaps(leaping_by_time_, forces::time_variable, time, side);
+  using List = std::span<const double>;
+  const std::array<List, forces::variables_of_force> at{positions[0],   positions[1],  positions[2],  List(&mass, 1),
+                                                        List(&time, 1), velocities[0], velocities[1], velocities[2]};
+  const bool from_potential = expressions_.size() == 1;
+  if (from_potential) expressions_[0].slopes(at, 0, out);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!from_potential) expressions_[axis].values(at, out[axis]);
+    for (double& force : out[axis]) force = forces::finite_or_zero(from_potential ? -force : force);
+  }
+}
+
 double ForceFormula::next_leap(double from, double to) const noexcept {
   double first = std::numeric_limits<double>::infinity();
   for (const Expression& part : leaping_by_time_)
