@@ -42,6 +42,8 @@ const fields::Table<MeshFields>& mesh_table() {
   return table;
 }
 
+}  // namespace
+
 const Form* mesh_form(FormStore& store, const ValueForms& values) {
   Form form = mesh_table().listing_form(store, values);
   form.together = {exactly_one({"of", "vertices"}),
@@ -50,15 +52,20 @@ const Form* mesh_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(form));
 }
 
-}  // namespace
+std::optional<SurfaceMesh> read_mesh(const json::Value& place, Building& building) {
+  MeshFields given;
+  mesh_table().read(place, given, building);
+  if (given.named) return std::move(given.named);
+  if (given.written.positions.empty() || given.written.triangles.empty()) return std::nullopt;
+  return std::move(given.written);
+}
 
 ShapeRow mesh() {
   const auto read = [](const json::Value& place, Shape& shape, Building& building) {
-    MeshFields given;
-    mesh_table().read(place, given, building);
-    if (!given.named && (given.written.positions.empty() || given.written.triangles.empty())) return;
-    std::optional<Solid> made = solid_or_problem(
-        place, building.problems, [&]() -> Solid { return TriangleMesh(given.named ? *given.named : given.written); });
+    const std::optional<SurfaceMesh> given = read_mesh(place, building);
+    if (!given) return;
+    std::optional<Solid> made =
+        solid_or_problem(place, building.problems, [&]() -> Solid { return TriangleMesh(*given); });
     if (made) shape.solid = std::move(*made);
   };
   return {"mesh",
