@@ -120,8 +120,8 @@ class ForceFormula {
   /// @param side  of a leap by the time
   [[nodiscard]] Vec3 force(double mass, const Vec3& position, const Vec3& velocity, double time,
                            Side side = Side::out) const noexcept;
-  /// The same for many, in a fraction of the time: one list per axis, each as long as the first.
-  using Lists = std::array<std::span<const double>, 3>;
+  using Lists = std::array<std::span<const double>, 3>;  ///< one for each axis, all of one length
+  /// The same for many, in a fraction of the time.
   void forces(double mass, const Lists& positions, const Lists& velocities, double time, Side side,
               const std::array<std::span<double>, 3>& out) const noexcept;
   /// J; none unless it was made from a potential.
