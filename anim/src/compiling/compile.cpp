@@ -242,12 +242,16 @@ std::shared_ptr<CompiledClip> coarsest(const ExactPose& exact, const std::vector
   const double allowed = 0.97 * settings.tolerance;
   const std::vector<Instant> all = measured_instants(knots_of(fits, exact.duration())),
                              some = some_of(all, most_searched);
+  // They are measured again and again, as long as they find room.
+  constexpr std::size_t most_frames = 1'000'000;
+  std::vector<WorldFrame> frames;
+  if (some.size() * exact.nodes().size() <= most_frames) frames = exact_frames(exact, some);
   Assembly assembly(exact, fits, reach, settings);
   Assembly::Made* best = nullptr;
   double holds = 0, fails = 0, share = 0.4 * settings.tolerance;
   for (int attempt = 0; attempt < 12; ++attempt) {
     Assembly::Made& made = assembly.made(share);
-    if (!made.at_some) made.at_some = largest_error(exact, *made.clip, settings.arm, some);
+    if (!made.at_some) made.at_some = largest_error(exact, *made.clip, settings.arm, some, frames);
     const double error = made.at_some->distance;
     if (error <= allowed) {
       best = &made;

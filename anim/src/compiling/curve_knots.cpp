@@ -49,20 +49,6 @@ void add_knots(const Curve<T>& curve, double duration, double look, std::vector<
     add_inside(duration * static_cast<double>(i) / static_cast<double>(looks), duration, out);
 }
 
-std::optional<Kind> kind_of(const Track& track) {
-  const std::optional<Component> component = component_named(track.property);
-  switch (component ? component->property : property_named(track.property)) {
-    case Property::position:
-      return Kind::translation;
-    case Property::rotation:
-      return Kind::rotation;
-    case Property::scale:
-      return Kind::scale;
-    default:
-      return std::nullopt;
-  }
-}
-
 }  // namespace
 
 CurveKnots::CurveKnots(const Clip& clip, const Hierarchy& nodes, double longest_look) : look(longest_look) {

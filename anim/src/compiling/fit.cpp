@@ -39,25 +39,7 @@ class Fitter {
 
   [[nodiscard]] Look look(double time, Side side) const {
     Look look;
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const bool is_there = first_ + lane < exact_.nodes().size();
-      const Motion motion = is_there ? exact_.joint(first_ + lane, time, side) : Motion{};
-      if (kind_ == Kind::rotation) {
-        const Quat& q = motion.pose.rotation;
-        const Vec3& w = motion.twist.angular;
-        const Vec3 vector = 0.5 * (q.w() * w + w.cross(q.vec()));
-        const double scalar = -0.5 * w.dot(q.vec());
-        for (int c = 0; c < 4; ++c) {
-          look.value[c][lane] = q.coeffs()[c];
-          look.rate[c][lane] = c < 3 ? vector[c] : scalar;
-        }
-      } else {
-        for (int c = 0; c < 3; ++c) {
-          look.value[c][lane] = kind_ == Kind::scale ? motion.pose.scale[c] : motion.pose.position[c];
-          look.rate[c][lane] = kind_ == Kind::scale ? motion.scale_rate[c] : motion.twist.linear[c];
-        }
-      }
-    }
+    for (std::size_t lane = 0; lane < lane_count; ++lane) look_at(lane, time, side, look);
     return look;
   }
 
@@ -111,6 +93,26 @@ class Fitter {
   [[nodiscard]] const Thickest& thickest() const { return thickest_; }
 
  private:
+  void look_at(std::size_t lane, double time, Side side, Look& look) const {
+    const bool is_there = first_ + lane < exact_.nodes().size();
+    const Motion motion = is_there ? exact_.joint(first_ + lane, kind_, time, side) : Motion{};
+    if (kind_ == Kind::rotation) {
+      const Quat& q = motion.pose.rotation;
+      const Vec3& w = motion.twist.angular;
+      const Vec3 vector = 0.5 * (q.w() * w + w.cross(q.vec()));
+      const double scalar = -0.5 * w.dot(q.vec());
+      for (int c = 0; c < 4; ++c) {
+        look.value[c][lane] = q.coeffs()[c];
+        look.rate[c][lane] = c < 3 ? vector[c] : scalar;
+      }
+      return;
+    }
+    for (int c = 0; c < 3; ++c) {
+      look.value[c][lane] = kind_ == Kind::scale ? motion.pose.scale[c] : motion.pose.position[c];
+      look.rate[c][lane] = kind_ == Kind::scale ? motion.scale_rate[c] : motion.twist.linear[c];
+    }
+  }
+
   void piece(double from, const Look& left, double to, const Look& right) {
     if (given_up_) return;
     if (near(from, left, to, right)) return keep(from, left, to, right);
@@ -269,13 +271,17 @@ class Fitter {
   /// to match.
   [[nodiscard]] bool near(double from, const Look& left, double to, const Look& right) const {
     const double length = to - from;
+    Look there;
     for (const double u : {0.5, 0.2113248654, 0.7886751346, 0.0694318442, 0.9305681558, 0.3617261933, 0.6382738067}) {
       const double time = from + u * length;
-      const Look there = look(time, Side::out);
       const double h01 = fit_.cubic ? u * u * (3 - 2 * u) : u, h00 = 1 - h01;
       const double h10 = fit_.cubic ? u * (1 - u) * (1 - u) * length : 0,
                    h11 = fit_.cubic ? -u * u * (1 - u) * length : 0;
-      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      // The lane that was off before is the likeliest to be so again.
+      const std::size_t first = suspect_;
+      for (std::size_t i = 0; i < lane_count; ++i) {
+        const std::size_t lane = (first + i) % lane_count;
+        look_at(lane, time, Side::out, there);
         double mixed[4] = {}, squared = 0, dot = 0;
         for (std::size_t c = 0; c < components(kind_); ++c) {
           mixed[c] = h00 * left.value[c][lane] + h01 * right.value[c][lane] + h10 * left.rate[c][lane] +
@@ -286,7 +292,10 @@ class Fitter {
         double factor = 1;
         if (kind_ == Kind::rotation) factor = (dot < 0 ? -1 : 1) / std::sqrt(squared);
         for (std::size_t c = 0; c < components(kind_); ++c)
-          if (!(std::abs(factor * mixed[c] - there.value[c][lane]) <= tolerance_[lane])) return false;
+          if (!(std::abs(factor * mixed[c] - there.value[c][lane]) <= tolerance_[lane])) {
+            suspect_ = lane;
+            return false;
+          }
       }
     }
     return true;
@@ -301,6 +310,7 @@ class Fitter {
   std::size_t most_ = 0;
   bool given_up_ = false;
   int depth_ = 0;
+  mutable std::size_t suspect_ = 0;  // the lane that was last found too far off
   Look before_;
   double last_begin_ = 0, reached_ = 0;
   Thickest thickest_;

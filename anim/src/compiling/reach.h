@@ -33,8 +33,12 @@ struct Instant {
   Side side;
 };
 
+/// Where the joints are at some instants, one instant after the other.
+[[nodiscard]] std::vector<WorldFrame> exact_frames(const ExactPose& exact, std::span<const Instant> instants);
+
 /// The largest error at some instants.
+/// @param frames  as from `exact_frames` for the same instants; empty: they are found on the way
 [[nodiscard]] LargestError largest_error(const ExactPose& exact, const CompiledClip& clip, double arm,
-                                         std::span<const Instant> instants);
+                                         std::span<const Instant> instants, std::span<const WorldFrame> frames = {});
 
 }  // namespace tweenfall::crowd
