@@ -1,5 +1,7 @@
 #include "graph_support.h"
 
+#include <tweenfall/anim/graph_doubts.h>
+
 #include <limits>
 
 using namespace tweenfall;
@@ -43,6 +45,41 @@ TEST_CASE("all faults of a graph are listed, each with its place") {
         "/output: there is no pose \"z\"\n");
   CHECK_THROWS_WITH_AS(Graph(limb(), three_clips(), faulty), doctest::Contains("/poses/c/blend: these weights"),
                        std::invalid_argument);
+}
+
+TEST_CASE("weights that sum to zero for a while are told, with the place and the time") {
+  using Keys = std::vector<Key<double>>;
+  const auto weight = [](const Keys& keys) { return GraphNumber(keyed_curve<double>(keys)); };
+  const auto doubts_of = [](const std::vector<BlendPose::Part>& parts) {
+    const Curve<double> keys = keyed_curve<double>({{.time = 0, .value = 1}, {.time = 2, .value = 0}});
+    const GraphDescription described{.parameters = {{.name = "open"}, {.name = "keyed", .curve = keys}},
+                                     .poses = {{"b", BlendPose{parts}}}};
+    std::string text;
+    for (const GraphFault& fault : inspect(described, *limb(), *three_clips())) text += fault.message + "\n";
+    for (const GraphFault& doubt : doubts_about(described)) {
+      for (const std::string& part : doubt.place) text += "/" + part;
+      text += ": " + doubt.message + "\n";
+    }
+    return text;
+  };
+  const std::string shows = ": the pose below the graph shows then\n",
+                    at = "/poses/b/blend: these weights sum to zero ";
+  const Keys falls{{.time = 0, .value = 1}, {.time = 1, .value = 0}};
+  const Keys rises{{.time = 1, .value = 0}, {.time = 2, .value = 1}};
+  const Keys never{{.time = 0, .value = 0}, {.time = 2, .value = -1}};
+  CHECK(doubts_of({{"walk", weight(falls)}}) == at + "from 1 s on" + shows);
+  CHECK(doubts_of({{"walk", weight(falls)}, {"idle", 0.0}}) == at + "from 1 s on" + shows);
+  CHECK(doubts_of({{"walk", weight(falls)}, {"idle", ByParameter{"keyed"}}}) == at + "from 2 s on" + shows);
+  CHECK(doubts_of({{"walk", weight(rises)}, {"idle", 0.0}}) == at + "from 0 s to 1 s" + shows);
+  CHECK(doubts_of({{"walk", weight({{.time = 0, .value = 0, .ease = Ease::hold()}, {.time = 1, .value = 1}})}}) ==
+        at + "from 0 s to 1 s" + shows);
+  CHECK(doubts_of({{"walk", weight(never)}}) == "these weights sum to zero; give one above 0\n");
+  // A moment is not a while, and what an open parameter does nobody knows.
+  CHECK(doubts_of({{"walk", weight(falls)}, {"idle", weight(rises)}}).empty());
+  CHECK(doubts_of({{"walk", weight(falls)}, {"idle", 0.1}}).empty());
+  CHECK(doubts_of({{"walk", weight(falls)}, {"idle", ByParameter{"open"}}}).empty());
+  const Curve<double> again = keyed_curve<double>(falls).with_outside(Outside::hold, Outside::repeat);
+  CHECK(doubts_of({{"walk", GraphNumber(again)}}).empty());
 }
 
 TEST_CASE("transitions without conditions that lead around are refused") {

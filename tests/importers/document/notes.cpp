@@ -328,3 +328,16 @@ TEST_CASE("steps are not tried for who does not ask for them") {
   CHECK(Document::parse(pushed, "pushed.json", "").notes().size() == 1);
   CHECK(Document::parse(pushed, "pushed.json", "", {.try_steps = false}).notes().empty());
 }
+
+TEST_CASE("weights of a blend that fall to zero are noted where they stand") {
+  const auto blend = [](const std::string& parts) {
+    return notes_of(
+        R"({"tweenfall": 1, "nodes": {"b": {}}, "clips": {"w": {"tracks": {"b.position": [[0, [0, 0, 0]], [1, [1, 0, 0]]]}}},
+      "graphs": {"g": {"poses": {"p": {"blend": )" +
+        parts + "}}}}}");
+  };
+  CHECK(blend("[[\"w\", [[0, 1], [1, 0]]], [\"w\", 0]]") ==
+        "n.json:2:54: note: these weights sum to zero from 1 s on: the pose below the graph shows then (at "
+        "/graphs/g/poses/p/blend)\n");
+  CHECK(blend("[[\"w\", [[0, 1], [1, 0.1]]]]").empty());
+}

@@ -1,5 +1,7 @@
 #include "document/graphs/graphs.h"
 
+#include <tweenfall/anim/graph_doubts.h>
+
 #include "document/graphs/parts.h"
 #include "document/read/clip_times.h"
 #include "document/report/suggestion.h"
@@ -283,6 +285,8 @@ void tell_faults(const json::Value& value, const GraphDescription& graph, Buildi
   for (GraphFault& fault : faults)
     if (const auto [place, whole] = place_in(value, fault.place); (whole || sound) && !told.leads_to(fault, place))
       building.problems.add(place, std::move(fault.message));
+  for (GraphFault& doubt : doubts_about(graph))
+    building.problems.note(place_in(value, doubt.place).first, std::move(doubt.message));
 }
 
 // Only clips have events, so an event that no clip has never happens.
