@@ -1,7 +1,8 @@
 #include <tweenfall/anim/clip_jumps.h>
-#include <tweenfall/anim/component.h>
 
 #include "clip/differ.h"
+#include "clip/each_curve.h"
+#include "clip/formula_jumps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,40 +13,19 @@ namespace tweenfall {
 namespace clips {
 namespace {
 
-Property property_of(const Track& track) {
-  const auto component = component_named(track.property);
-  return component ? component->property : property_named(track.property);
-}
-
-/// Calls `visit(curve, accumulates)` with each curve of a track: whether a loop with offset adds to it.
-template <class Visit>
-struct EachCurve {
-  const Visit& visit;
-  bool accumulates;
-  template <class T>
-  void operator()(const Curve<T>& curve) const {
-    visit(curve, accumulates);
-  }
-  void operator()(const WeightCurves& curves) const {
-    for (const Curve<double>& curve : curves) visit(curve, accumulates);
-  }
-  template <class T>
-  void operator()(const StepCurve<T>&) const {}
-};
-
-template <class Visit>
-void for_each_curve(const Clip& clip, const TrackFilter& counts, const Visit& visit) {
-  for (const Track& track : clip.tracks) {
-    if (counts && !counts(track)) continue;
-    const Property property = property_of(track);
-    const bool accumulates = property == Property::position || property == Property::rotation;
-    std::visit(EachCurve<Visit>{visit, accumulates}, track.curve);
-  }
-}
+/// Formulas are looked at over this long as often as elsewhere, s; over more, less often.
+constexpr double long_clip = 3600;
+constexpr int most_leaps = 10'000;
 
 /// Times inside (0, duration] at which a curve jumps.
 template <class T>
 void collect(const Curve<T>& curve, double duration, std::vector<double>& jumps) {
+  if (std::isfinite(duration)) {
+    const double cell = std::max(1.0, duration / long_clip) / cells_per_second;
+    double time = 0;
+    for (int i = 0; i < most_leaps && (time = first_leap(curve, time, duration, cell)) <= duration; ++i)
+      jumps.push_back(time);
+  }
   for (const double knot : curve.knots())
     if (knot > 0 && knot <= duration && differ(curve.value(knot, Side::in), curve.value(knot, Side::out)))
       jumps.push_back(knot);
@@ -117,6 +97,7 @@ double first_jump(const Curve<double>& curve, double from, double to) {
     meet(knot);
     if (knot > start && knot < end) meet_later(knot - start);
   }
+  if (std::isfinite(to)) meet(clips::first_leap(curve, from, to));
   if (around && after == Outside::repeat && clips::differ(curve.value(end, Side::in), curve.value(start))) {
     meet(end);
     meet_later(0);

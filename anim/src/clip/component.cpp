@@ -1,5 +1,6 @@
 #include <tweenfall/anim/component.h>
 #include <tweenfall/curves/functions.h>
+#include <tweenfall/curves/leaps.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -22,6 +23,15 @@ std::uint32_t numbers_of(std::string_view property) noexcept {
 
 constexpr std::uint32_t angle_bits = 7u << (4 * static_cast<int>(Property::rotation));
 
+/// A curve made of another, with its knots and its leaps.
+Curve<double> like(const Curve<double>& curve, Curve<double>::Formula formula) {
+  const std::span<const NumberOverTime> parts = leaping(curve);
+  return with_leaping(curve.knots().empty()
+                          ? Curve<double>(std::move(formula), curve.start(), curve.end())
+                          : Curve<double>(std::move(formula), {curve.knots().begin(), curve.knots().end()}),
+                      {parts.begin(), parts.end()});
+}
+
 Curve<double> moved_by(const Curve<double>& curve, double offset) {
   if (offset == 0) return curve;
   const auto sampler = [curve, offset](double time, Side side) {
@@ -29,8 +39,7 @@ Curve<double> moved_by(const Curve<double>& curve, double offset) {
     sample.value += offset;
     return sample;
   };
-  return curve.knots().empty() ? Curve<double>(sampler, curve.start(), curve.end())
-                               : Curve<double>(sampler, {curve.knots().begin(), curve.knots().end()});
+  return like(curve, sampler);
 }
 
 Curve<double> times(const Curve<double>& curve, double factor) {
@@ -38,8 +47,7 @@ Curve<double> times(const Curve<double>& curve, double factor) {
     const Sample<double> sample = curve.sample(time, side);
     return Sample<double>{sample.value * factor, sample.rate * factor, sample.acceleration * factor};
   };
-  return curve.knots().empty() ? Curve<double>(sampler, curve.start(), curve.end())
-                               : Curve<double>(sampler, {curve.knots().begin(), curve.knots().end()});
+  return like(curve, sampler);
 }
 
 /// The components of one property of one node.
@@ -74,8 +82,13 @@ Curve<Color> color_of(const Parts& parts, const std::optional<Color>& own) {
   std::ranges::sort(knots);
   knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
   std::array<std::optional<Curve<double>>, 4> curves{};
-  for (std::size_t i = 0; i < 4; ++i)
-    if (parts.tracks[i]) curves[i] = numbers(*parts.tracks[i]);
+  std::vector<NumberOverTime> leaps;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!parts.tracks[i]) continue;
+    curves[i] = numbers(*parts.tracks[i]);
+    const std::span<const NumberOverTime> leaping_parts = leaping(*curves[i]);
+    leaps.insert(leaps.end(), leaping_parts.begin(), leaping_parts.end());
+  }
   const auto sampler = [curves, below](double time, Side side) {
     Sample<Color> sample{below, Vec4::Zero(), Vec4::Zero()};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -88,9 +101,10 @@ Curve<Color> color_of(const Parts& parts, const std::optional<Color>& own) {
     }
     return sample;
   };
-  if (!knots.empty()) return {sampler, std::move(knots)};
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  return {sampler, -infinity, infinity};
+  return with_leaping(
+      knots.empty() ? Curve<Color>(sampler, -infinity, infinity) : Curve<Color>(sampler, std::move(knots)),
+      std::move(leaps));
 }
 
 }  // namespace

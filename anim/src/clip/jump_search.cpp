@@ -1,7 +1,12 @@
 #include <tweenfall/anim/jump_search.h>
 
+#include "clip/formula_jumps.h"
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace tweenfall {
 
@@ -13,8 +18,31 @@ Clip shadow_of(const Clip& clip, const std::vector<double>& times) {
   Clip shadow;
   shadow.duration = clip.duration;
   shadow.loop = clip.loop;
-  for (const double time : times) shadow.events.push_back({.from = time, .to = time, .name = {}, .data = {}});
+  for (const double time : times)
+    shadow.events.push_back({.from = time, .to = time, .name = std::to_string(shadow.events.size()), .data = {}});
   return shadow;
+}
+
+/// The first time at which the clock of a play is behind a clip time that it reaches at about `told`.
+double behind(const RunningPlay& play, double moment, double told) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr int most = 16;
+  const ClipClock after = play.clock(told + 1e-9 * (1 + std::abs(told)));
+  const auto is_there = [&](double time) {
+    const ClipClock clock = play.clock(time);
+    return clock.cycle == after.cycle && (after.rate < 0 ? clock.time <= moment : clock.time >= moment);
+  };
+  double time = told;
+  for (int i = 0; i < most && is_there(std::nextafter(time, -infinity)); ++i) time = std::nextafter(time, -infinity);
+  for (int i = 0; i < most && !is_there(time); ++i) time = std::nextafter(time, infinity);
+  return is_there(time) && !is_there(std::nextafter(time, -infinity)) ? time : told;
+}
+
+/// The clip times between which a play of an endless clip is, though it be changed once in between.
+std::pair<double, double> reach_of(const RunningPlay& play, double from, double to) {
+  const ClipClock first = play.clock(from), last = play.clock(to, Side::in);
+  const double way = std::max({play.play().speed.greatest(), std::abs(first.rate), std::abs(last.rate)}) * (to - from);
+  return {std::max(0.0, std::min(first.time, last.time) - way), std::max(first.time, last.time) + way};
 }
 
 }  // namespace
@@ -23,6 +51,7 @@ Clip shadow_of(const Clip& clip, const std::vector<double>& times) {
 JumpSearch::JumpSearch(const Animation& animation, const TrackFilter& counts) {
   for (const Clip& clip : animation.clips()) {
     clips_.push_back(clips::shadow_of(clip, jumps_of(clip, counts)));
+    formulas_.push_back(clips::FormulaJumps::of(clip, counts));
     follows_.push_back(std::ranges::any_of(clip.tracks, [&](const Track& track) { return !counts || counts(track); }));
   }
   *this = with_plays_of(animation, counts);
@@ -42,7 +71,11 @@ JumpSearch JumpSearch::with_plays_of(const Animation& animation, const TrackFilt
   return search;
 }
 
-double JumpSearch::first(const Animation& animation, double from, double to, const ClockOverride& clock) const {
+// @param told  calls with a play, a clip whose events are jumps, and the stretch; returns the first of them, or
+// infinity
+template <class Told>
+double JumpSearch::first_of(const Animation& animation, double from, double to, const ClockOverride& clock,
+                            const Told& told) const {
   double first = std::numeric_limits<double>::infinity();
   const auto consider = [&](double time) {
     if (time > from && time <= to) first = std::min(first, time);
@@ -56,16 +89,39 @@ double JumpSearch::first(const Animation& animation, double from, double to, con
     consider(play.at());
     if (play.player->is_gone(play.player->end())) consider(play.end());
     consider(play.first_weight_jump(from, to));
-    const auto look_at = [&](const Clip& jumps) {
-      if (const auto jump = play.first_event(jumps, from, to)) first = std::min(first, jump->time);
-    };
+    const auto look_at = [&](const Clip& jumps) { first = std::min(first, told(play, jumps)); };
     look_at(clips_[clip]);
+    if (formulas_[clip]) {
+      const auto [low, high] = clips::reach_of(play, from, to);
+      if (const std::vector<double> leaps = formulas_[clip]->between(low, high); !leaps.empty())
+        look_at(clips::shadow_of(*play.clip, leaps));
+    }
     const auto place = static_cast<std::size_t>(play.player - players.data());
     if (place < seams_.size()) look_at(seams_[place]);
   });
   if (clock == ClockOverride{})
     if (const auto instant = animation.first_graph_instant(from, to)) first = std::min(first, *instant);
   return first;
+}
+
+double JumpSearch::first(const Animation& animation, double from, double to, const ClockOverride& clock) const {
+  return first_of(animation, from, to, clock, [&](const RunningPlay& play, const Clip& jumps) {
+    const auto jump = play.first_event(jumps, from, to);
+    return jump ? jump->time : std::numeric_limits<double>::infinity();
+  });
+}
+
+double JumpSearch::first_behind(const Animation& animation, double from, double to) const {
+  return first_of(animation, from, to, {}, [&](const RunningPlay& play, const Clip& jumps) {
+    // One told of just before may be just behind.
+    double told = from - 1e-12 * (1 + std::abs(from));
+    while (const auto jump = play.first_event(jumps, told, to)) {
+      told = jump->time;
+      const double time = clips::behind(play, jumps.events[std::stoul(jump->name)].from, told);
+      if (time > from) return time;
+    }
+    return std::numeric_limits<double>::infinity();
+  });
 }
 
 }  // namespace tweenfall

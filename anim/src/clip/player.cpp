@@ -168,13 +168,19 @@ bool Player::is_gone(double time, Side side) const noexcept {
 }
 
 double Player::first_weight_jump(double from, double to) const noexcept {
-  const Life& life = *latest_;
-  for (const double knot : life.play.weight.knots()) {
-    const double time = life.weight_from + knot;
-    if (time > from && time <= to && life.play.weight.value(knot, Side::in) != life.play.weight.value(knot))
-      return time;
+  double first = clips::infinity;
+  double last = clips::infinity;  // when the next life took over
+  for (const Life* life = latest_.get(); life; life = life->before.get()) {
+    for (const double knot : life->play.weight.knots()) {
+      const double time = life->weight_from + knot;
+      if (time > from && time <= to && time >= life->since && time < last && time < first &&
+          life->play.weight.value(knot, Side::in) != life->play.weight.value(knot))
+        first = time;
+    }
+    if (life->since <= from) break;
+    last = life->since;
   }
-  return clips::infinity;
+  return first;
 }
 
 Player Player::changed(const Clip& clip, double time, const PlayAction& action) const {

@@ -1,16 +1,21 @@
 #include <tweenfall/anim/animation.h>
+#include <tweenfall/anim/jump_search.h>
 #include <tweenfall/curves/nearest_name.h>
 
 #include "graph/graph_stack.h"
 
+#include <algorithm>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <stdexcept>
 
 namespace tweenfall {
 
 namespace graphs {
 
-GraphGround ground_of(const Animation& plays) {
+GraphGround ground_of(const Animation& plays, const std::shared_ptr<GroundJumps>& jumps,
+                      const std::vector<double>& changes) {
   const auto pose = [plays](double time, Side side, std::span<Motion> out) { plays.sample(time, out, side); };
   const auto next_event = [plays](std::string_view name, double after, double until) {
     std::optional<double> first;
@@ -21,7 +26,17 @@ GraphGround ground_of(const Animation& plays) {
     return first;
   };
   const auto look = [plays](std::size_t node, double time, Side side) { return plays.look(node, time, side); };
-  return {pose, next_event, look};
+  const auto next_jump = [plays, changes, jumps, own = std::make_shared<GroundJumps>()](double after, double until) {
+    std::call_once(own->once, [&] {
+      std::call_once(jumps->once, [&] { jumps->search = JumpSearch(plays, moves_its_node); });
+      own->search = jumps->search.with_plays_of(plays, moves_its_node);
+    });
+    double first = own->search.first_behind(plays, after, until);
+    const auto change = std::ranges::upper_bound(changes, after);
+    if (change != changes.end()) first = std::min(first, *change);
+    return first <= until ? std::optional(first) : std::nullopt;
+  };
+  return {pose, next_event, look, next_jump};
 }
 
 }  // namespace graphs
@@ -29,8 +44,7 @@ GraphGround ground_of(const Animation& plays) {
 Animation Animation::with_graphs(std::vector<GraphDescription> graphs) const {
   Animation other = *this;
   other.graphs_ = nullptr;
-  if (!graphs.empty())
-    other.graphs_ = std::make_shared<graphs::GraphStack>(nodes_, clips_, std::move(graphs), graphs::ground_of(other));
+  if (!graphs.empty()) other.graphs_ = std::make_shared<graphs::GraphStack>(nodes_, clips_, std::move(graphs), other);
   other.bind_plays();
   return other;
 }
@@ -38,9 +52,7 @@ Animation Animation::with_graphs(std::vector<GraphDescription> graphs) const {
 Animation Animation::with_input(std::string_view graph, const GraphInput& input) const {
   const std::size_t number = graph_named(graph);
   Animation other = *this;
-  other.graphs_ = nullptr;
-  other.graphs_ =
-      std::make_shared<graphs::GraphStack>(*graphs_, graphs::ground_of(other), std::numeric_limits<double>::infinity());
+  other.graphs_ = graphs_->copy();
   other.graphs_->put(number, input);
   return other;
 }

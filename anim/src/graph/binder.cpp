@@ -257,6 +257,7 @@ const LoopedClip* Binder::clip(const std::string& name, const std::optional<Loop
   if (jumps_at_seam(made.clip, made.clip.loop.mode, 0, made.clip.duration, moves_its_node))
     jumps.insert(jumps.begin(), 0);
   for (const double time : jumps) made.jumps.events.push_back({.from = time, .to = time, .name = {}, .data = {}});
+  made.formulas = clips::FormulaJumps::of(made.clip, moves_its_node);
   return &made;
 }
 

@@ -4,6 +4,7 @@
 // missing.
 
 #include "chains/problems.h"
+#include "clip/formula_jumps.h"
 #include "operations/number.h"
 #include "operations/operation.h"
 #include "pose/bound_clip.h"
@@ -22,6 +23,7 @@ struct LoopedClip {
   Clip clip;
   std::optional<pose::BoundClip> bound{};
   Clip jumps{};  // no tracks; its events mark the times at which the clip and its loop jump
+  std::shared_ptr<const clips::FormulaJumps> formulas{};  // of an endless clip; null for none
 };
 
 }  // namespace graphs

@@ -184,7 +184,7 @@ void GraphPlayer::evaluate(double time, std::span<Motion> local, Side side) noex
   const std::span<Motion> below(run_->room.data(), nodes);
   const auto show = [&] {
     run_->ground.pose(time, side, below);
-    graph_->compiled().output->pose(run_->log, {time, side, 0}, {below, run_->room.data() + nodes, &run_->ground.pose},
+    graph_->compiled().output->pose(run_->log, {time, side, 0}, {below, run_->room.data() + nodes, &run_->ground},
                                     local);
   };
   show();
@@ -232,6 +232,17 @@ bool is_same_place(const Motion& a, const Motion& b) noexcept {
 }  // namespace graphs
 
 std::optional<double> GraphPlayer::first_instant(double from, double to) {
+  return instant(from, to, true);
+}
+
+std::optional<double> GraphPlayer::first_possible_jump(double from, double to) {
+  std::optional<double> first = instant(from, to, false);
+  if (run_->ground.next_jump)
+    if (const auto below = run_->ground.next_jump(from, first.value_or(to))) first = below;
+  return first;
+}
+
+std::optional<double> GraphPlayer::instant(double from, double to, bool looks) {
   if (!(from < to) || !std::isfinite(to)) return std::nullopt;
   know(to);
   std::optional<double> first;
@@ -246,7 +257,7 @@ std::optional<double> GraphPlayer::first_instant(double from, double to) {
   // frames, they count as the ones before did.
   constexpr int most_looked_at = 64;
   constexpr double dense = 1e-3;  // mean distance between seams, s
-  const bool may_go_on = graph_->compiled().travels > 0;
+  const bool may_go_on = looks && graph_->compiled().travels > 0;
   std::vector<Motion> before(may_go_on ? graph_->nodes().size() : 0), behind(before.size());
   const auto goes_on = [&](double time) {
     evaluate(time, before, Side::in);

@@ -32,7 +32,8 @@ struct GraphStack::Runner {
       return first;
     };
     const auto look = [&player](std::size_t node, double time, Side side) { return player.look_at(node, time, side); };
-    return {pose, next_event, look};
+    const auto next_jump = [&player](double after, double until) { return player.first_possible_jump(after, until); };
+    return {pose, next_event, look, next_jump};
   }
 
   void put(std::size_t graph, const GraphInput& input) {
@@ -95,19 +96,22 @@ class GraphStack::Lent {
 
 GraphStack::GraphStack(const std::shared_ptr<const Hierarchy>& nodes,
                        const std::shared_ptr<const std::vector<Clip>>& clips,
-                       std::vector<GraphDescription> descriptions, GraphGround plays)
+                       std::vector<GraphDescription> descriptions, const Animation& plays)
     : descriptions_(std::make_shared<const std::vector<GraphDescription>>(std::move(descriptions))),
       nodes_(nodes->size()),
-      plays_(std::move(plays)) {
+      jumps_(std::make_shared<GroundJumps>()),
+      plays_(ground_of(plays, jumps_, {})) {
   for (const GraphDescription& each : *descriptions_)
     graphs_.push_back(std::make_shared<const Graph>(nodes, clips, each));
   idle_[0] = new_runner().release();
 }
 
-GraphStack::GraphStack(const GraphStack& other, GraphGround plays, double from)
+GraphStack::GraphStack(const GraphStack& other, std::vector<double> changes, GraphGround plays, double from)
     : graphs_(other.graphs_),
       descriptions_(other.descriptions_),
       nodes_(other.nodes_),
+      jumps_(other.jumps_),
+      changes_(std::move(changes)),
       plays_(std::move(plays)),
       puts_(other.puts_) {
   const Lent lent(other);
@@ -115,6 +119,22 @@ GraphStack::GraphStack(const GraphStack& other, GraphGround plays, double from)
   for (std::size_t i = 0; i < graphs_.size(); ++i)
     runner->players.emplace_back(lent->players[i], runner->over(i), from);
   idle_[0] = runner.release();
+}
+
+namespace {
+
+std::vector<double> with(std::vector<double> times, double time) {
+  times.insert(std::ranges::upper_bound(times, time), time);
+  return times;
+}
+
+}  // namespace
+
+GraphStack::GraphStack(const GraphStack& other, const Animation& plays, double from)
+    : GraphStack(other, with(other.changes_, from), ground_of(plays, other.jumps_, with(other.changes_, from)), from) {}
+
+std::shared_ptr<GraphStack> GraphStack::copy() const {
+  return std::shared_ptr<GraphStack>(new GraphStack(*this, changes_, plays_, infinite_time));
 }
 
 GraphStack::~GraphStack() {
@@ -146,6 +166,9 @@ GraphPlayer GraphStack::player(const std::shared_ptr<const GraphStack>& stack, s
     };
     ground.look = [stack, graph](std::size_t node, double at, Side side) {
       return Lent(*stack)->players[graph - 1].look_at(node, at, side);
+    };
+    ground.next_jump = [stack, graph](double after, double until) {
+      return Lent(*stack)->players[graph - 1].first_possible_jump(after, until);
     };
     ground.next_event = [stack, graph](std::string_view name, double after, double until) {
       const Lent lent(*stack);

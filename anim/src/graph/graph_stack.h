@@ -8,11 +8,13 @@
 
 #include <tweenfall/anim/animation.h>
 #include <tweenfall/anim/graph_player.h>
+#include <tweenfall/anim/jump_search.h>
 
 #include <array>
 #include <atomic>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -20,14 +22,22 @@
 
 namespace tweenfall::graphs {
 
+/// Where the clips below graphs jump: found when first asked for, since only springs want to know.
+struct GroundJumps {
+  std::once_flag once{};
+  JumpSearch search{};
+};
+
 class GraphStack {
  public:
-  /// @param plays  what lies below all of them
+  /// @param plays  what lies below all of them, without graphs
   /// @throws std::invalid_argument listing all faults of the first that has any
   GraphStack(const std::shared_ptr<const Hierarchy>& nodes, const std::shared_ptr<const std::vector<Clip>>& clips,
-             std::vector<GraphDescription> descriptions, GraphGround plays);
-  /// Graphs with the same past, over plays that may differ from the time `from` on.
-  GraphStack(const GraphStack& other, GraphGround plays, double from);
+             std::vector<GraphDescription> descriptions, const Animation& plays);
+  /// Graphs with the same past, over plays (without graphs) that may differ from the time `from` on.
+  GraphStack(const GraphStack& other, const Animation& plays, double from);
+  /// The same graphs over the same plays.
+  [[nodiscard]] std::shared_ptr<GraphStack> copy() const;
   ~GraphStack();
   GraphStack(const GraphStack&) = delete;
   GraphStack& operator=(const GraphStack&) = delete;
@@ -72,12 +82,20 @@ class GraphStack {
   std::vector<std::shared_ptr<const Graph>> graphs_;
   std::shared_ptr<const std::vector<GraphDescription>> descriptions_;
   std::size_t nodes_;
+  GraphStack(const GraphStack& other, std::vector<double> changes, GraphGround plays, double from);
+
+  std::shared_ptr<GroundJumps> jumps_;
+  std::vector<double> changes_;  // when the plays were changed, s, in order
   GraphGround plays_;
   Record<Put> puts_;  // in the order in which they were added
   mutable std::array<std::atomic<Runner*>, most_idle> idle_{};
 };
 
-/// The plays as the ground of graphs. @param plays without graphs
-[[nodiscard]] GraphGround ground_of(const Animation& plays);
+/// The plays as the ground of graphs.
+/// @param plays    without graphs
+/// @param jumps    of the same clips
+/// @param changes  when the plays were changed, s, in order
+[[nodiscard]] GraphGround ground_of(const Animation& plays, const std::shared_ptr<GroundJumps>& jumps,
+                                    const std::vector<double>& changes);
 
 }  // namespace tweenfall::graphs

@@ -147,7 +147,7 @@ class Course {
       const std::span<Motion> in = room_.first(nodes), out = room_.subspan(nodes, nodes);
       ground_.pose(time, Side::in, in);
       ground_.pose(time, Side::out, out);
-      machine.measure(log_, passage, in, out, &ground_.pose, room_.data() + 2 * nodes);
+      machine.measure(log_, passage, in, out, &ground_, room_.data() + 2 * nodes);
     }
     Record<Passage>& passages = log_.passages[number];
     const std::size_t pages = passages.full_pages();

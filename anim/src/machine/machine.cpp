@@ -244,7 +244,7 @@ Passage Machine::passage(const Log& log, std::size_t index, double time) const {
 }
 
 void Machine::measure(const Log& log, Passage& passage, std::span<const Motion> below_in,
-                      std::span<const Motion> below_out, const PoseBelow* below, Motion* free) const {
+                      std::span<const Motion> below_out, const GraphGround* below, Motion* free) const {
   const std::size_t nodes = below_in.size();
   const std::span<Motion> shown(free, nodes), next(free + nodes, nodes);
   Motion* const rest = free + 2 * nodes;

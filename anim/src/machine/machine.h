@@ -52,7 +52,7 @@ class Machine : public Operation {
   /// Measures the difference, before the passage is in the log. @param below_in, below_out, below the pose below the
   /// graph, arriving and leaving, and at any time @param free `rooms() + 2` poses
   void measure(const Log& log, Passage& passage, std::span<const Motion> below_in, std::span<const Motion> below_out,
-               const PoseBelow* below, Motion* free) const;
+               const GraphGround* below, Motion* free) const;
 
  private:
   void show(const Log& log, const Passages& passages, const Moment& moment, const Scratch& scratch,

@@ -17,6 +17,7 @@ class PlayedClip : public Operation {
   PlayedClip(const ClipPose& described, const LoopedClip& clip, const Hierarchy& nodes)
       : clip_(*clip.bound),
         jumps_(clip.jumps),
+        formulas_(clip.formulas.get()),
         number_(clip.number),
         nodes_(nodes),
         at_(described.at),
@@ -43,7 +44,8 @@ class PlayedClip : public Operation {
   }
 
   [[nodiscard]] std::optional<double> next_jump(const Log&, double start, double after, double until) const override {
-    const double jump = clips::next_moment(rounds(), jumps_.events, start + at_, speed_, after);
+    double jump = clips::next_moment(rounds(), jumps_.events, start + at_, speed_, after);
+    if (formulas_ && speed_ > 0) jump = std::min(jump, next_leap(start + at_, after, std::min(jump, until)));
     return jump <= until ? std::optional(jump) : std::nullopt;
   }
 
@@ -61,6 +63,17 @@ class PlayedClip : public Operation {
   }
 
  private:
+  [[nodiscard]] double next_leap(double began, double after, double until) const {
+    // What is found before `after` is its own leap, rounded.
+    double leap = std::max(0.0, after - began) * speed_ * (1 - 1e-12) - 1e-12;
+    for (;;) {
+      leap = formulas_->next(leap, (until - began) * speed_);
+      if (!std::isfinite(leap)) return leap;
+      const ClipEvent moment{.from = leap, .to = leap, .name = {}, .data = {}};
+      const double time = clips::next_moment(rounds(), {&moment, 1}, began, speed_, after);
+      if (time <= until) return time;
+    }
+  }
   [[nodiscard]] ClipClock clock(const Moment& moment) const noexcept {
     return clips::steady_clock(rounds(), moment.start + at_, speed_, moment.time, moment.side);
   }
@@ -75,6 +88,7 @@ class PlayedClip : public Operation {
 
   const pose::BoundClip& clip_;
   const Clip& jumps_;
+  const clips::FormulaJumps* formulas_;  // null for none
   std::size_t number_;
   const Hierarchy& nodes_;
   double at_, speed_;

@@ -31,10 +31,10 @@ struct Moment {
 struct Scratch {
   std::span<const Motion> below;
   Motion* free;
-  const PoseBelow* source;  // the pose below at any time
+  const GraphGround* ground;  // what lies below at any time
 
   [[nodiscard]] std::span<Motion> pose() const noexcept { return {free, below.size()}; }
-  [[nodiscard]] Scratch rest() const noexcept { return {below, free + below.size(), source}; }
+  [[nodiscard]] Scratch rest() const noexcept { return {below, free + below.size(), ground}; }
 };
 
 /// A stretch of time in which a pose shows; what happens at `from` itself counts only if `from` is `start`.

@@ -178,7 +178,7 @@ Animation Animation::with_change(const PlayChange& change) const {
   other.graphs_ = nullptr;
   if (start) other.bind_plays();
   if (!graphs_) return other;
-  other.graphs_ = std::make_shared<graphs::GraphStack>(*graphs_, graphs::ground_of(other), change.time);
+  other.graphs_ = std::make_shared<graphs::GraphStack>(*graphs_, other, change.time);
   if (start) other.bind_plays();
   return other;
 }

@@ -36,17 +36,17 @@ class Swing : public Changing {
     const std::size_t nodes = pose.size();
     const auto room = [&](std::size_t i) { return std::span<Motion>(scratch.free + i * nodes, nodes); };
     const Script script{
-        *this, log, moment.start, room(0), {scratch.below, scratch.free + own_rooms * nodes, scratch.source}};
+        *this, log, moment.start, room(0), {scratch.below, scratch.free + own_rooms * nodes, scratch.ground}};
     const std::span<Motion> work(scratch.free + nodes, 2 * nodes), before = room(3), after = room(4);
 
     SwingMemory& memory = log.swings[number_];
     if (!memory.prepared) prepare(memory);
     SwingCourse& course = course_since(memory, moment.start);
     SwingMark& here = next_mark(course);
-    take_up(log, course, moment, here);
+    take_up(script, course, moment, here);
     State& state = std::get<State>(here.state);
     for (;;) {
-      const double from = here.instant, jump = next_jump(log, moment, from);
+      const double from = here.instant, jump = next_jump(script, moment, from);
       const Clock clock{&script, from, jump};
       const PoseAt pose_at = [&clock](double time, std::span<Motion> out) { clock.at(time, out); };
       const double next = std::min(jump, next_instant(log, from));
@@ -84,8 +84,8 @@ class Swing : public Changing {
     void at(double time, Side side, std::span<Motion> out) const noexcept {
       const Moment moment{time, side, start};
       if (swing.base() && swing.base()->recall(log, moment, out)) return;
-      (*free.source)(time, side, below);
-      swing.show_base(log, moment, {below, free.free, free.source}, out);
+      free.ground->pose(time, side, below);
+      swing.show_base(log, moment, {below, free.free, free.ground}, out);
     }
   };
   struct Clock {
@@ -106,11 +106,16 @@ class Swing : public Changing {
     }
   };
 
-  /// The first time after a clock began at which a clip makes the base jump, up to a second beyond the moment: springs
-  /// look ahead by no more than a step; infinity for none.
-  [[nodiscard]] double next_jump(const Log& log, const Moment& moment, double from) const noexcept {
-    constexpr double none = std::numeric_limits<double>::infinity();
-    return base() ? base()->next_jump(log, moment.start, from, moment.time + 1).value_or(none) : none;
+  /// The first time after a clock began at which the base may jump, because of a clip in it or of what lies below the
+  /// graph, up to a second beyond the moment: springs look ahead by no more than a step; infinity for none.
+  [[nodiscard]] double next_jump(const Script& script, const Moment& moment, double from) const noexcept {
+    const double until = moment.time + 1;
+    double first = std::numeric_limits<double>::infinity();
+    if (base()) first = base()->next_jump(script.log, moment.start, from, until).value_or(first);
+    const GraphGround& ground = *script.free.ground;
+    // Every pose shows what is below, where its clips do not move a node.
+    if (ground.next_jump) first = ground.next_jump(from, std::min(first, until)).value_or(first);
+    return first;
   }
 
   void put_at_rest(SwingMark& mark) const noexcept {
@@ -129,14 +134,14 @@ class Swing : public Changing {
   }
 
   /// Sets `here` to the mark to continue from.
-  void take_up(const Log& log, const SwingCourse& course, const Moment& moment, SwingMark& here) const noexcept {
+  void take_up(const Script& script, const SwingCourse& course, const Moment& moment, SwingMark& here) const noexcept {
     here.instant = here.time = -1;  // so that `here` itself is not found
     // What arrives at an instant is not yet on the clock that begins there.
     double instant = moment.side == Side::out ? moment.time : std::nextafter(moment.time, -1.0), limit = moment.time;
     while (const SwingMark* found = furthest_mark(course, instant, limit)) {
       // A mark on an earlier clock is valid up to the end of that clock.
       const double end =
-          std::min(moment.time, std::min(next_instant(log, found->instant), next_jump(log, moment, found->instant)));
+          std::min({moment.time, next_instant(script.log, found->instant), next_jump(script, moment, found->instant)});
       if (found->time <= end && std::holds_alternative<State>(found->state)) {
         here = *found;
         return;

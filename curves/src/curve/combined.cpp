@@ -38,9 +38,15 @@ Extent shared_extent(const Curves& parts) {
   return shared;
 }
 
-template <class T>
-Curve<T> made(typename Curve<T>::Formula formula, const Extent& extent) {
-  return Curve<T>(std::move(formula), extent.start, extent.end)
+template <class T, class Curves>
+Curve<T> made(typename Curve<T>::Formula formula, const Curves& parts) {
+  const Extent extent = shared_extent(parts);
+  std::vector<NumberOverTime> leaping;
+  for (const Curve<double>& part : parts) {
+    const std::vector<NumberOverTime>& own = CurveAccess::leaping(part);
+    leaping.insert(leaping.end(), own.begin(), own.end());
+  }
+  return CurveAccess::with_leaping(Curve<T>(std::move(formula), extent.start, extent.end), std::move(leaping))
       .with_outside({extent.before, {}, extent.plays_before}, {extent.after, {}, extent.plays_after});
 }
 
@@ -58,7 +64,7 @@ Curve<T> by_coordinates(const std::array<Curve<double>, size>& parts) {
         }
         return result;
       },
-      shared_extent(parts));
+      parts);
 }
 
 }  // namespace
@@ -96,7 +102,7 @@ Curve<T> combined(std::span<const Curve<double>> basis, std::span<const T> coeff
         }
         return result;
       },
-      spans::shared_extent(basis));
+      basis);
 }
 
 template Curve<double> combined<double>(std::span<const Curve<double>>, std::span<const double>);

@@ -3,6 +3,7 @@
 // What a curve stores: spans laid out to be read in sequence, or a formula.
 
 #include <tweenfall/curves/curve.h>
+#include <tweenfall/curves/leaps.h>
 
 #include <algorithm>
 #include <array>
@@ -92,9 +93,10 @@ struct Curve<T>::Data {
   bool plain_turns = false;
   std::vector<Vec3> spins;  // empty, or one for each span
 
-  std::vector<double> marks;  // knots that a formula states
-  std::vector<double> keys;   // the knots that are keys; empty where all are
-  Formula formula;            // empty where there are spans
+  std::vector<double> marks;            // knots that a formula states
+  std::vector<NumberOverTime> leaping;  // parts of a formula that leap elsewhere
+  std::vector<double> keys;             // the knots that are keys; empty where all are
+  Formula formula;                      // empty where there are spans
   // Set where the formula can be evaluated at every time; rebuilds the curve with other rules outside.
   std::function<Curve(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt;
 
@@ -200,11 +202,24 @@ struct CurveAccess {
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
+  /// The parts of its formula that may leap.
+  template <class T>
+  static const std::vector<NumberOverTime>& leaping(const Curve<T>& curve) noexcept {
+    return curve.data_->leaping;
+  }
+  template <class T>
+  static Curve<T> with_leaping(const Curve<T>& curve, std::vector<NumberOverTime> parts) {
+    auto data = std::make_shared<typename Curve<T>::Data>(*curve.data_);
+    data->leaping = std::move(parts);
+    return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
+  }
+
   /// A curve converted from another: `formula` holds at all times; `rebuilt` makes the curve with other rules outside.
   template <class T>
   static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end,
                                const spans::Breaks& breaks, const OutsideRule<T>& before, const OutsideRule<T>& after,
-                               std::function<Curve<T>(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt) {
+                               std::function<Curve<T>(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt,
+                               std::vector<NumberOverTime> leaping = {}) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = std::move(formula);
     data->start = start;
@@ -214,6 +229,7 @@ struct CurveAccess {
     data->before.rule = before;
     data->after.rule = after;
     data->rebuilt = std::move(rebuilt);
+    data->leaping = std::move(leaping);
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
@@ -229,7 +245,8 @@ struct CurveAccess {
           const Curve<T> again =
               converted<T>(inner.with_outside({early.rule, {}, early.plays}, {late.rule, {}, late.plays}), sampler);
           return with_ends<T>(again, {early, {}, {}}, {late, {}, {}});
-        });
+        },
+        leaping(inner));
   }
 };
 

@@ -1,4 +1,5 @@
 #include <tweenfall/curves/expression.h>
+#include <tweenfall/curves/leaps.h>
 
 #include <algorithm>
 #include <array>
@@ -78,7 +79,10 @@ std::vector<std::string> Expression::functions() {
 
 Curve<double> expression_curve(const Expression& expression) {
   constexpr double endless = std::numeric_limits<double>::infinity();
-  return Curve<double>(
+  std::vector<NumberOverTime> leaping;
+  for (const Expression& part : expression.jumping_parts())
+    if (part.reads(0)) leaping.push_back([part](double t, Side side) { return part.sample(t, side); });
+  const Curve<double> curve(
       [expression](double t, Side side) {
         Sample<double> s = expression.sample(t, side);
         if (!std::isfinite(s.value)) return Sample<double>{0, 0, 0};
@@ -87,6 +91,7 @@ Curve<double> expression_curve(const Expression& expression) {
         return s;
       },
       -endless, endless);
+  return leaping.empty() ? curve : with_leaping(curve, std::move(leaping));
 }
 
 }  // namespace tweenfall

@@ -36,6 +36,11 @@ Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> 
     }
   }
   const std::vector<std::vector<Modifier>> kept(modifiers.begin(), modifiers.end());
+  std::vector<NumberOverTime> leaping;
+  for (const Curve<double>& part : parts) {
+    const std::vector<NumberOverTime>& own = CurveAccess::leaping(part);
+    leaping.insert(leaping.end(), own.begin(), own.end());
+  }
   return CurveAccess::seen_through<T>(
       [parts](double time, Side side) {
         Sample<T> result{zero<T>(), zero<T>(), zero<T>()};
@@ -52,7 +57,8 @@ Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> 
       {curve.after(), {}, curve.rule_after().plays},
       [curve, kept](const OutsideRule<T>& before, const OutsideRule<T>& after) {
         return modified<T>(curve.with_outside(before, after), std::span<const std::vector<Modifier>>(kept));
-      });
+      },
+      std::move(leaping));
 }
 
 template Curve<Vec2> modified<Vec2>(const Curve<Vec2>&, std::span<const std::vector<Modifier>>);

@@ -1,15 +1,15 @@
 #pragma once
 
 #include <tweenfall/curves/expression.h>
+#include <tweenfall/curves/leaps.h>
 
-#include <functional>
 #include <span>
 #include <vector>
 
 namespace tweenfall::forces {
 
 /// A formula along one number, with its rate by it.
-using Along = std::function<Sample<double>(double, Side)>;
+using Along = NumberOverTime;
 
 /// The parts of formulas that leap from one value to another by the time alone, whatever else the formulas read.
 /// @param time       the variable that is the time
@@ -19,13 +19,8 @@ using Along = std::function<Sample<double>(double, Side)>;
 /// Such a part along the time. @param part  outlives it
 [[nodiscard]] Along by_time(const Expression& part, std::size_t time);
 
-/// Whether more has changed from one place to a later one than the rates there could.
-[[nodiscard]] bool leaps(const Along& formula, double from, double to);
-
-/// The first place in (from, to] at which a formula leaps; infinity for none. It is looked for between eight looks at
-/// what is in between: leaps that undo each other between two looks go unseen, and so does one that is no larger than
-/// what the formula's rate makes of that way.
-[[nodiscard]] double next_leap(const Along& formula, double from, double to);
+using tweenfall::leaps;
+using tweenfall::next_leap;
 
 /// When to ask in place of an instant that lies beside a leap, on the side that is asked for.
 /// @param parts  that leap by the time alone

@@ -2,8 +2,11 @@
 
 #include "figure_support.h"
 
+#include <tweenfall/anim/animation.h>
 #include <tweenfall/anim/jiggle.h>
 #include <tweenfall/anim/node_spring.h>
+#include <tweenfall/curves/expression.h>
+#include <tweenfall/curves/functions.h>
 #include <tweenfall/curves/spring_response.h>
 
 using namespace tweenfall;
@@ -216,6 +219,104 @@ TEST_CASE(
       CHECK(near(pose[0].twist.linear, velocity, 1e-10));
     }
   }
+}
+
+namespace {
+
+constexpr double formula_step = 0.41234, formula_round = 0.9017;
+
+/// The hips step aside and back by a formula, for ever or in a clip that repeats.
+Clip steps_by_formula(bool endless) {
+  const std::string text = endless ? "0.5 * step(0.41234, mod(t, 0.9017))" : "0.5 * step(0.41234, t)";
+  Clip clip{.name = "steps", .duration = endless ? std::numeric_limits<double>::infinity() : formula_round};
+  if (!endless) clip.loop = {.mode = LoopMode::repeat};
+  clip.tracks.push_back(
+      {"hips", "position", parametric(expression_curve(Expression(text)), Curve<double>(1.0), Curve<double>(0.0))});
+  return clip;
+}
+
+/// The same by keys.
+Clip steps_by_keys() {
+  Clip clip{.name = "steps", .duration = formula_round, .loop = {.mode = LoopMode::repeat}};
+  clip.tracks.push_back({"hips", "position",
+                         keyed_curve<Vec3>({{.time = 0, .value = {0, 1, 0}, .ease = Ease::hold()},
+                                            {.time = formula_step, .value = {0.5, 1, 0}}})});
+  return clip;
+}
+
+/// Where a spring is after all steps until a time: each moves it as if it were the only one.
+Sample<double> after_steps(double hz, double damping, double began, double time) {
+  const double w = 2 * pi * hz;
+  Sample<double> sum{0, 0, 0};
+  for (int i = 0; began + i * formula_round <= time; ++i)
+    for (const auto& [instant, way] :
+         {std::pair{i * formula_round, i > 0 ? -0.5 : 0.0}, {i * formula_round + formula_step, 0.5}}) {
+      const SpringResponse response = spring_response(w * std::max(0.0, time - began - instant), damping);
+      sum.value += way * (1 - response.displaced);
+      sum.rate += way * w * response.struck;
+    }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a spring goes where plays below its graph jump, or formulas do, as the closed form says, not before") {
+  const double hz = 1.7, damping = 0.35;
+  const SpringSettings spring{.hz = hz, .damping = damping};
+  for (const Clip& clip : {steps_by_keys(), steps_by_formula(false), steps_by_formula(true)})
+    for (const std::string base : {"", "steps"}) {
+      CAPTURE(base);
+      const double began = base.empty() ? 0.2 : 0;
+      const Animation plays(figures(), {clip}, {{.clip = 0, .at = began}});
+      const Animation with = plays.with_graphs(
+          {{.name = "g", .poses = {{"spring", SpringPose{.base = base, .node = "hips", .position = spring}}}},
+           {.name = "over", .poses = {{"same", RestPose{}}}}});
+      const Animation often = plays.with_graphs({with.graphs().begin(), with.graphs().end()});
+      std::vector<Motion> pose(figures()->size()), between(figures()->size());
+      double last = 0;
+      for (const double time :
+           {0.2, 0.41, 0.412, 0.42, 0.6, 0.612, 0.613, 0.899, 0.9016, 0.9018, 1.1, 1.11, 1.3, 1.314, 1.315, 2.7, 9.1}) {
+        CAPTURE(time);
+        for (; last < time; last += 0.0171) often.sample(last, between);
+        with.sample(time, pose);
+        const Sample<double> expected = after_steps(hz, damping, began, time);
+        CHECK(near(pose[0].pose.position, Vec3(expected.value, 1, 0), 1e-11));
+        CHECK(near(pose[0].twist.linear, Vec3(expected.rate, 0, 0), 1e-10));
+        often.sample(time, between);
+        CHECK(same_bits(pose, between));
+      }
+    }
+}
+
+TEST_CASE("a spring over a graph whose parameter jumps, or a play that is sought, moves from then on") {
+  const double hz = 1.7, damping = 0.35, instant = 0.41234, w = 2 * pi * hz;
+  std::vector<Clip> clips(1);
+  clips[0] = {.name = "way", .duration = 9};
+  clips[0].tracks.push_back({"hips", "position",
+                             keyed_curve<Vec3>({{.time = 0, .value = {0, 1, 0}, .ease = Ease::hold()},
+                                                {.time = 5, .value = {0.5, 1, 0}, .ease = Ease::hold()}})});
+  const GraphDescription springy{
+      .name = "spring",
+      .poses = {{"s", SpringPose{.node = "hips", .position = SpringSettings{.hz = hz, .damping = damping}}}}};
+  const GraphDescription below{
+      .name = "below",
+      .parameters = {{.name = "there"}},
+      .poses = {{"later", ClipPose{.clip = "way", .at = -6}},
+                {"mix", LayersPose{.layers = {{.pose = "later", .weight = ByParameter{"there"}}}}}},
+      .inputs = {{instant, "there", 1}}};
+  const Animation plays(figures(), clips, {{.clip = 0}});
+  const Animation by_graph = plays.with_graphs({below, springy});
+  const Animation by_seek =
+      plays.with_graphs({springy}).with_change({.time = instant, .play = "way", .action = playing::Seek{.time = 6}});
+  std::vector<Motion> pose(figures()->size());
+  for (const Animation& animation : {by_graph, by_seek})
+    for (const double time : {0.2, 0.4123, 0.42, 0.6, 1.0, 1.77, 3.3}) {
+      CAPTURE(time);
+      animation.sample(time, pose);
+      const SpringResponse response = spring_response(w * std::max(0.0, time - instant), damping);
+      CHECK(near(pose[0].pose.position, Vec3(0.5 * (1 - response.displaced), 1, 0), 1e-11));
+      CHECK(near(pose[0].twist.linear, Vec3(0.5 * w * response.struck, 0, 0), 1e-10));
+    }
 }
 
 TEST_CASE("a graph with springs is saved and loaded with their state, and goes on to the same bits") {

@@ -16,7 +16,8 @@ using TrackFilter = std::function<bool(const Track&)>;
 [[nodiscard]] bool moves_its_node(const Track& track);
 
 /// Clip times inside the clip, or at its end, at which the number, vector, color or rotation of a track jumps, in
-/// order.
+/// order. Formulas are looked at 128 times per second (less often in a clip of more than an hour): a leap that is
+/// undone between two looks goes unseen. Those of formulas in an endless clip are left out; `JumpSearch` finds them.
 [[nodiscard]] std::vector<double> jumps_of(const Clip& clip, const TrackFilter& counts = {});
 
 /// Whether a track has another value where a loop begins anew.

@@ -77,6 +77,9 @@ struct GraphGround {
   std::function<std::optional<double>(std::string_view name, double after, double until)> next_event{};
   /// Color and morph weights of a node there; none: nothing is animated.
   std::function<NodeLook(std::size_t node, double time, Side side)> look{};
+  /// The first time in (after, until] at which the pose there may jump, or was changed from outside; none: it never
+  /// jumps.
+  std::function<std::optional<double>(double after, double until)> next_jump{};
 };
 
 class GraphPlayer {
@@ -127,6 +130,8 @@ class GraphPlayer {
   /// where the loop of a clip restarts, its tracks jump, or the keys of a number jump. The seam of a loop does not
   /// count where accumulated root motion carries the pose over it.
   [[nodiscard]] std::optional<double> first_instant(double from, double to);
+  /// The same, and every seam counts, without a look at the pose; also what the ground tells.
+  [[nodiscard]] std::optional<double> first_possible_jump(double from, double to);
 
   // Inspection. Machines are numbered from 0 in the order of the graph's poses.
   [[nodiscard]] std::size_t machines() const noexcept;
@@ -153,6 +158,7 @@ class GraphPlayer {
   void know(double time);
   void recall();
   void lie_on(GraphGround ground);
+  [[nodiscard]] std::optional<double> instant(double from, double to, bool looks);
   void evaluate(double time, std::span<Motion> local, Side side) noexcept;
 
   struct Run;

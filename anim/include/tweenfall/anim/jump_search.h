@@ -6,9 +6,14 @@
 #include <tweenfall/anim/animation.h>
 #include <tweenfall/anim/clip_jumps.h>
 
+#include <memory>
 #include <vector>
 
 namespace tweenfall {
+
+namespace clips {
+class FormulaJumps;
+}
 
 /// Keeps where the tracks of an animation's clips jump, so that asking is fast. For any number of threads.
 class JumpSearch {
@@ -23,11 +28,18 @@ class JumpSearch {
   /// somewhere else, a play begins, is stopped or has a key of its weight that jumps, or it is an instant of a graph.
   /// @param animation  the one that this was made for
   [[nodiscard]] double first(const Animation& animation, double from, double to, const ClockOverride& clock = {}) const;
+  /// The same, exactly the first time at which clocks, as they round, are behind the jump: just before it they are not.
+  [[nodiscard]] double first_behind(const Animation& animation, double from, double to) const;
 
  private:
+  template <class Told>
+  [[nodiscard]] double first_of(const Animation& animation, double from, double to, const ClockOverride& clock,
+                                const Told& told) const;
+
   std::vector<Clip> clips_;    // for each clip one without tracks, whose events are its jumps
   std::vector<Clip> seams_;    // by player: the same of its loop
   std::vector<char> follows_;  // by clip: whether any of its tracks counts
+  std::vector<std::shared_ptr<const clips::FormulaJumps>> formulas_;  // by clip; null where none leaps without end
 };
 
 }  // namespace tweenfall
