@@ -38,6 +38,8 @@ struct ContactHead : PairInContact, state::KeptImpulses {
   bool kept = false;        ///< its manifold was found in an earlier step
   bool began = false;       ///< the pair did not touch in the step before
   bool impact = false;      ///< some point meets fast enough to rebound
+  bool within = false;      ///< the two lay in each other when they met, and still do
+  double eased = 0;         ///< part of the overlap that no impulse removes, m
   double impact_time = 0;   ///< s after the start of the step
 };
 
@@ -46,6 +48,11 @@ struct ContactConstraint : ContactHead {
   Manifold manifold;
   std::array<PointConstraint, 4> points{};  ///< only the first `count` are used
 };
+
+/// The gap of one of its points at the start of the step that impulses see, m.
+[[nodiscard]] inline double eased_gap(const ContactConstraint& contact, const PointConstraint& point) {
+  return point.start_gap + contact.eased;
+}
 
 /// Prefetches it with its first points.
 inline void fetch(const ContactConstraint& contact) {

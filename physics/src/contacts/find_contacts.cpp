@@ -35,6 +35,18 @@ double nearness_of_impact(const state::Body& a, const state::Body& b) {
   return std::max(collision::hair, std::min(of_near_enough * near_enough, of_size * std::min(a.radius(), b.radius())));
 }
 
+/// Whether two bodies lay in each other when they met, deeper than what moves by itself gets within a step, and have
+/// not been taken apart since.
+bool lies_within(const ContactConstraint& constraint, const state::ContactMemory* memory, double radius) {
+  constexpr double hardly = 0.05;  // of what is near enough
+  double depth = 0;
+  for (int i = 0; i < constraint.count; ++i)
+    depth = std::max(depth, -constraint.points[static_cast<std::size_t>(i)].start_gap);
+  const double near = std::min(near_enough, near_enough_of_small * radius);
+  if (constraint.began) return depth > near && constraint.impact_time == 0;
+  return memory->is(state::ContactMemory::within) && depth > hardly * near;
+}
+
 /// The parts of a compound; empty for any other body, which is a single part.
 std::span<const Shape> parts_of(const state::Body& body) {
   const auto* compound = std::get_if<Compound>(&body.shape().solid);
@@ -229,6 +241,7 @@ void World::Implementation::finish_contact(contacts::ContactConstraint& constrai
   constraint.rolling_friction = std::max(a.makeup->rolling_friction, b.makeup->rolling_friction);
   constraint.spinning_friction = std::max(a.makeup->spinning_friction, b.makeup->spinning_friction);
   constraint.began = !(memory && memory->is(state::ContactMemory::touching));
+  constraint.within = contacts::lies_within(constraint, memory, std::min(a.radius(), b.radius()));
   if (memory)
     contacts::inherit(constraint, memories, *memory, stands[constraint.b], 0.05 * std::min(a.radius(), b.radius()));
 }

@@ -67,7 +67,7 @@ void check(const WholeContact& contact) {
   const auto& [memory, more, rare] = contact;
   state::require(memory.count >= 1 && memory.count <= 4, "it must have 1 to 4 points");
   constexpr int known = ContactMemory::touching | ContactMemory::began | ContactMemory::slid | ContactMemory::holds |
-                        ContactMemory::taken_up;
+                        ContactMemory::taken_up | ContactMemory::within;
   state::require((memory.marks & ~known) == 0, "there are no such marks");
   state::require(memory.is(ContactMemory::holds) || !memory.is(ContactMemory::taken_up), "what was taken up must hold");
   state::require(std::abs(memory.normal.norm() - 1) <= 1e-6, "its normal must have length 1");

@@ -39,12 +39,13 @@ struct KeptImpulses {
 /// What is kept of a pair in contact: what the next step needs, and what the caller sees.
 struct ContactMemory {
   enum Mark : std::uint8_t {
-    touching = 1,  ///< an impulse passed or the shapes overlap
-    gone = 2,      ///< one of its bodies has been removed since
-    began = 4,     ///< it did not touch in the step before
-    slid = 8,      ///< see KeptImpulses
-    holds = 16,    ///< its manifold may be used again while the bodies hardly move relative to each other
-    taken_up = 32  ///< it was used again in the last step, and lay where the bodies had brought it
+    touching = 1,   ///< an impulse passed or the shapes overlap
+    gone = 2,       ///< one of its bodies has been removed since
+    began = 4,      ///< it did not touch in the step before
+    slid = 8,       ///< see KeptImpulses
+    holds = 16,     ///< its manifold may be used again while the bodies hardly move relative to each other
+    taken_up = 32,  ///< it was used again in the last step, and lay where the bodies had brought it
+    within = 64     ///< the two lay in each other when they met, and still do
   };
   std::uint32_t a = 0, b = 0;  ///< indices of the bodies, a < b
   std::uint32_t feature = 0;   ///< of the first point

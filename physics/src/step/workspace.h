@@ -10,6 +10,7 @@
 #include "islands/blocks/block_solver.h"
 #include "islands/free_islands.h"
 #include "islands/island_contents.h"
+#include "islands/shifted_apart.h"
 #include "joints/joint_link.h"
 #include "pairs/broad_phase.h"
 #include "queries/scene.h"
@@ -111,6 +112,7 @@ struct Workspace {
   islands::Islands islands;
   islands::IslandSorter island_sorter;
   islands::FreeIslands free_islands;
+  islands::ShiftedApart shifted_apart;
   std::vector<Solvers> solvers;  ///< one for each thread
   std::vector<std::uint32_t> islands_by_size;
   std::vector<char> moved;                          ///< by a solver in this step

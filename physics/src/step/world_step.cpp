@@ -54,6 +54,7 @@ void remember(const contacts::ContactConstraint& constraint, const Outcome& outc
   memory.mark(ContactMemory::began, constraint.began);
   memory.mark(ContactMemory::slid, constraint.slid);
   memory.mark(ContactMemory::taken_up, constraint.kept);
+  memory.mark(ContactMemory::within, constraint.within);
   memory.kept_step = constraint.kept_step;
   memory.impulse = outcome.normal;
   memory.approach = outcome.approach;
@@ -260,6 +261,8 @@ void World::Implementation::solve_islands(double dt) {
   };
   for (const islands::IslandContents& island : all)
     if (!goes_by_strategies(island)) free_islands.keep(island, bodies, loads, moved, settings.integrator, dt, start_of);
+  for (const islands::IslandContents& island : all)
+    shifted_apart.shift(island.contacts, bodies, settings.push_out_speed * dt);
   for (std::size_t i = 0; i < shares; ++i) complementarity = std::max(complementarity, solvers[i].complementarity);
 }
 

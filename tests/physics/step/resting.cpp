@@ -189,3 +189,75 @@ TEST_CASE("of many at one point each touches no more others than push it away") 
     CHECK(world.contacts().size() <= each * count);
   }
 }
+
+TEST_CASE("a column that begins in itself is taken apart gently: nothing is thrown, tilted or lifted too far") {
+  constexpr double size = 1, push = 0.5;
+  for (const double dt : {1.0 / 60, 1.0 / 240})
+    for (const int count : {10, 20})
+      for (const double depth : {0.02, 0.05, 0.1}) {
+        CAPTURE(dt);
+        CAPTURE(count);
+        CAPTURE(depth);
+        World world;
+        world.add({.shape = {Plane{}}, .fixed = true});
+        std::vector<BodyId> boxes;
+        for (int i = 0; i < count; ++i)
+          boxes.push_back(
+              world.add({.shape = {Box{Vec3(size / 2, size / 2, size / 2)}},
+                         .mass = 1.0,
+                         .motion = {.pose = {.position = Vec3(0, (size - depth) * (i + 1) - size / 2, 0)}}}));
+        const double rest = size * (count - 0.5);
+        double fastest = 0, quickest = 0, highest = -HUGE_VAL, astray = 0;
+        for (int i = 0; i < 6 / dt; ++i) {
+          const double before = world.motion(boxes.back()).pose.position.y();
+          world.step(dt);
+          const double top = world.motion(boxes.back()).pose.position.y();
+          highest = std::max(highest, top - rest);
+          quickest = std::max(quickest, (top - before) / dt);
+          for (const BodyId& box : boxes) {
+            const Vec3 place = world.motion(box).pose.position;
+            fastest = std::max(fastest, world.twist(box).linear.norm());
+            astray = std::max(astray, std::hypot(place.x(), place.z()));
+          }
+        }
+        MESSAGE(count << " boxes, " << 1e3 * depth << " mm in each other, steps of 1/" << 1 / dt << " s: at most "
+                      << fastest << " m/s, shifted at " << quickest << ", " << 1e3 * highest << " mm too high, "
+                      << 1e3 * astray << " mm astray");
+        CHECK(fastest < 0.2);
+        CHECK(quickest < push + 0.1);
+        CHECK(highest < 5e-4);
+        CHECK(astray < 0.02);
+        CHECK(std::abs(world.motion(boxes.back()).pose.position.y() - rest) < 5e-3);
+        CHECK(world.kinetic_energy() < 1e-6);
+      }
+}
+
+TEST_CASE("a row that begins in itself where nothing holds it parts about its center, and goes on so after loading") {
+  World world({.gravity = Vec3(0, 0, 0)});
+  std::vector<BodyId> boxes;
+  for (int i = 0; i < 15; ++i)
+    boxes.push_back(world.add({.shape = {Box{Vec3(0.5, 0.5, 0.5)}},
+                               .mass = 1.0 + i % 3,
+                               .motion = {.pose = {.position = Vec3(0.9 * i, 0, 0)}}}));
+  const auto center = [&boxes](const World& of) {
+    Vec3 sum = Vec3::Zero();
+    double mass = 0;
+    for (const BodyId& box : boxes) {
+      sum += of.mass(box).mass * of.motion(box).pose.position;
+      mass += of.mass(box).mass;
+    }
+    return Vec3(sum / mass);
+  };
+  const Vec3 start = center(world);
+  World loaded;
+  for (int i = 0; i < 600; ++i) {
+    world.step(1.0 / 60);
+    if (i == 20) loaded.load(world.save());
+    if (i > 20) loaded.step(1.0 / 60);
+  }
+  CHECK(loaded.state_hash() == world.state_hash());
+  CHECK((center(world) - start).norm() < 1e-9);
+  CHECK(world.kinetic_energy() < 1e-6);
+  for (std::size_t i = 1; i < boxes.size(); ++i)
+    CHECK(world.motion(boxes[i]).pose.position.x() - world.motion(boxes[i - 1]).pose.position.x() > 1 - 1e-3);
+}

@@ -6,6 +6,7 @@
 #include "contacts/combine.h"
 #include "islands/blocks/block_solver.h"
 #include "islands/pinched.h"
+#include "islands/shifted_apart.h"
 #include "step/softness.h"
 #include "step/solver.h"
 
@@ -189,6 +190,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::I
   });
   if (unfit) return std::nullopt;
   effort.alone = effort.alone || driven;
+  islands::ShiftedApart::mark(island.contacts);
   return effort;
 }
 

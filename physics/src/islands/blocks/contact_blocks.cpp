@@ -163,8 +163,8 @@ void ContactBlocks::fill_ball(std::size_t ball, int lane, ContactConstraint& con
   block.mass[lane] = 1 / inverse_mass;
   block.slip_mass[lane] = 1 / (inverse_mass + arm_a * arm_a * a.inverse_moment + arm_b * arm_b * b.inverse_moment);
   block.coefficient[lane] = contact.friction;
-  block.hard[lane] = contact.impact || a.pulled || b.pulled ? -1 : 0;
-  block.base[lane] = point.start_gap;
+  block.hard[lane] = contact.impact || contact.eased > 0 || a.pulled || b.pulled ? -1 : 0;
+  block.base[lane] = contacts::eased_gap(contact, point);
   block.impulse[lane] = ratio * point.kept_normal;
   put(block.friction, lane, ratio * (point.kept_friction - normal * normal.dot(point.kept_friction)));
   put(ball_meetings[ball], lane, closing, contact.restitution > 0 || (contact.impact && (a.jointed || b.jointed)));
@@ -192,14 +192,14 @@ void ContactBlocks::fill(std::size_t index, int lane, ContactConstraint& contact
   block.inverse_moment_b[lane] = b.inverse_moment;
   block.coefficient[lane] = contact.friction;
   put(meetings[index], lane, closing, contact.restitution > 0 || (contact.impact && (a.jointed || b.jointed)));
-  block.hard[lane] = contact.impact || a.pulled || b.pulled ? -1 : 0;
+  block.hard[lane] = contact.impact || contact.eased > 0 || a.pulled || b.pulled ? -1 : 0;
   const double ratio = contact.kept_step > h ? h / contact.kept_step : 1;
   block.twist[lane] = block.central() ? ratio * contact.kept_twist : 0;
   Vec3 friction = Vec3::Zero();
   for (int i = 0; i < contact.count; ++i) {
     const PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
     PointRow& row = points[block.point + static_cast<std::uint32_t>(i)];
-    row.base[lane] = point.start_gap;
+    row.base[lane] = contacts::eased_gap(contact, point);
     row.impulse[lane] = ratio * point.kept_normal;
     friction += point.kept_friction;
     if (block.frictions != block.points) continue;
@@ -263,7 +263,8 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
     row.mass[lane] = inverse > 0 ? 1 / inverse : 0;
     if (displacements) {
       // The rows add the whole displacement of the step to it.
-      row.base[lane] = point.start_gap + normal.dot((arm_b - point.start_arm_b) - (arm_a - point.start_arm_a)) -
+      row.base[lane] = contacts::eased_gap(contact, point) +
+                       normal.dot((arm_b - point.start_arm_b) - (arm_a - point.start_arm_a)) -
                        (across_b.dot(angular_of(displacements[block.b[lane]])) -
                         across_a.dot(angular_of(displacements[block.a[lane]])));
     }
