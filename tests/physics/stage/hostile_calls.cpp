@@ -235,6 +235,30 @@ TEST_CASE("a node's scale and its parents' scale what collides") {
   }
 }
 
+TEST_CASE("a skeleton whose scales are ones rounded to floats carries bodies, and one that shears does not") {
+  const auto skeleton = [](double error) {
+    StageDescription description;
+    description.nodes.push_back({.name = "root"});
+    const Solid solids[] = {Capsule{0.02, 0.03}, Box{{0.02, 0.05, 0.02}}, Sphere{0.04}};
+    for (std::size_t i = 0; i < 24; ++i) {
+      NodeDescription bone{.name = "bone " + std::to_string(i),
+                           .parent = i,
+                           .body = BodyDescription{.shape = {solids[i % 3]}, .mass = 1.0, .drive = Drive::keyed()}};
+      bone.rest.position = {0, 0.1, 0};
+      bone.rest.rotation = Quat(0.9, 0.1, 0.2 + 0.01 * static_cast<double>(i), -0.3).normalized();
+      bone.rest.scale = Vec3(1 + 2 * error, 1 - error, 1 + error);
+      description.nodes.push_back(bone);
+    }
+    return description;
+  };
+  constexpr double rounded = 1.0 / (1 << 24);
+  Stage stage(skeleton(rounded));
+  stage.advance(0.1);
+  CHECK((stage.world(24).motion.pose.position - stage.world(23).motion.pose.position).norm() ==
+        doctest::Approx(0.1).epsilon(1e-5));
+  CHECK_THROWS_WITH_AS(Stage{skeleton(1e-3)}, doctest::Contains("shears its node"), std::invalid_argument);
+}
+
 TEST_CASE("a pattern takes what can be taken, a name alone must be takeable") {
   StageDescription description = falling_ball();
   description.nodes.push_back({.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}});

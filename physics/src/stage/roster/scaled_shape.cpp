@@ -17,7 +17,8 @@ namespace tweenfall::staging {
 
 namespace {
 
-constexpr double hairline = 1e-9;  // relative to the largest factor
+/// Files store rotations and scales as floats, and a skeleton multiplies dozens of them. Relative to the largest.
+constexpr double even_enough = 1e-5;
 
 std::string triple(const Vec3& value) {
   return "(" + number_text(value.x()) + ", " + number_text(value.y()) + ", " + number_text(value.z()) + ")";
@@ -25,11 +26,8 @@ std::string triple(const Vec3& value) {
 
 bool is_diagonal(const Mat3& matrix) {
   const Mat3 rest = matrix - Mat3(matrix.diagonal().asDiagonal());
-  return rest.cwiseAbs().maxCoeff() <= hairline * matrix.cwiseAbs().maxCoeff();
+  return rest.cwiseAbs().maxCoeff() <= even_enough * matrix.cwiseAbs().maxCoeff();
 }
-
-/// Files store scales as floats, and products of them.
-constexpr double even_enough = 1e-6;
 
 double uniform(const Vec3& scale, const char* what) {
   const Vec3 size = scale.cwiseAbs();
