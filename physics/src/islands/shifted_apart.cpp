@@ -37,21 +37,18 @@ bool stays(const Body& body) {
 
 }  // namespace
 
-void ShiftedApart::mark(std::span<ContactConstraint* const> contacts) {
+void ShiftedApart::mark(std::span<ContactConstraint* const> contacts, const std::vector<Body>& bodies) {
+  const auto is_carried = [&](const ContactConstraint* contact) {
+    return stays(bodies[contact->a]) || stays(bodies[contact->b]);
+  };
+  if (std::none_of(contacts.begin(), contacts.end(), is_carried)) return;
   // Where one corner lies deeper than the others, impulses still turn it out.
   for (ContactConstraint* contact : contacts)
     if (contact->within) contact->eased = std::max(0.0, -widest_gap(*contact));
 }
 
-/// @return whether something carries them
-bool ShiftedApart::find_levels(const std::vector<Body>& bodies) {
-  bool stands = false;
-  for (const std::uint32_t body : members_) {
-    levels_[body] = stays(bodies[body]) ? 0 : nowhere;
-    stands = stands || stays(bodies[body]);
-  }
-  // Of what nothing carries, one lies as well as another in the middle.
-  if (!stands) levels_[members_[members_.size() / 2]] = 0;
+void ShiftedApart::find_levels(const std::vector<Body>& bodies) {
+  for (const std::uint32_t body : members_) levels_[body] = stays(bodies[body]) ? 0 : nowhere;
   bool changed = true;
   for (int pass = 0; pass < most_passes && changed; ++pass) {
     changed = false;
@@ -69,7 +66,6 @@ bool ShiftedApart::find_levels(const std::vector<Body>& bodies) {
   };
   std::stable_sort(openings_.begin(), openings_.end(),
                    [&](const Opening& one, const Opening& other) { return lower_end(one) < lower_end(other); });
-  return stands;
 }
 
 /// The lower of two bodies bears the other one's shift; where none is lower, the lighter one moves more.
@@ -99,17 +95,6 @@ double ShiftedApart::missing() const {
   return result;
 }
 
-/// What nothing carries keeps its center of mass.
-void ShiftedApart::keep_center(const std::vector<Body>& bodies) {
-  double mass = 0;
-  Vec3 moment = Vec3::Zero();
-  for (const std::uint32_t body : members_) {
-    mass += bodies[body].mass().mass;
-    moment += bodies[body].mass().mass * shifts_[body];
-  }
-  for (const std::uint32_t body : members_) shifts_[body] -= moment / mass;
-}
-
 void ShiftedApart::shift(std::span<ContactConstraint* const> contacts, std::vector<Body>& bodies, double most) {
   const auto is_marked = [](const ContactConstraint* contact) { return contact->eased > 0; };
   if (std::none_of(contacts.begin(), contacts.end(), is_marked)) return;
@@ -129,13 +114,12 @@ void ShiftedApart::shift(std::span<ContactConstraint* const> contacts, std::vect
   std::sort(members_.begin(), members_.end());
   members_.erase(std::unique(members_.begin(), members_.end()), members_.end());
   for (const std::uint32_t body : members_) shifts_[body] = Vec3::Zero();
-  const bool stands = find_levels(bodies);
+  find_levels(bodies);
   for (int i = 0; i < most_sweeps && (i == 0 || missing() > hardly_lacking * widest); ++i) sweep(bodies);
   if (missing() > lacking * widest) {
     for (ContactConstraint* contact : contacts) contact->within = false;
     return;
   }
-  if (!stands) keep_center(bodies);
   double longest = most;
   for (const std::uint32_t body : members_) longest = std::max(longest, shifts_[body].norm());
   for (const std::uint32_t index : members_) {

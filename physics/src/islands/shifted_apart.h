@@ -12,11 +12,12 @@ namespace tweenfall::islands {
 /// Bodies that lay in each other when they met. Impulses that push them apart would leave them speeds: of a column, the
 /// highest box gets the sum of what all contacts ask for, few passes take back only part of that, and uneven passes
 /// tilt it. So in large islands such contacts press as if the bodies just touched, and the overlap is removed by
-/// shifting bodies along the normals, from the ground up, without turning them.
+/// shifting bodies along the normals, from the ground up, without turning them. Where nothing carries them they push
+/// each other apart as ever: a shift would change their angular momentum.
 class ShiftedApart {
  public:
-  /// Marks the contacts of an island whose overlap `shift` will remove.
-  static void mark(std::span<contacts::ContactConstraint* const> contacts);
+  /// Marks the contacts of an island whose overlap `shift` will remove: none if nothing carries its bodies.
+  static void mark(std::span<contacts::ContactConstraint* const> contacts, const std::vector<state::Body>& bodies);
   /// Shifts the bodies of an island in which contacts are marked, none by more than `most` meters. Where the contacts
   /// contradict each other, as between walls, nothing is shifted, and from then on they push.
   void shift(std::span<contacts::ContactConstraint* const> contacts, std::vector<state::Body>& bodies, double most);
@@ -28,10 +29,9 @@ class ShiftedApart {
     double width;
   };
 
-  [[nodiscard]] bool find_levels(const std::vector<state::Body>& bodies);
+  void find_levels(const std::vector<state::Body>& bodies);
   void sweep(const std::vector<state::Body>& bodies);
   [[nodiscard]] double missing() const;
-  void keep_center(const std::vector<state::Body>& bodies);
 
   std::vector<Opening> openings_;
   std::vector<std::uint32_t> members_;  ///< bodies that the contacts touch

@@ -337,7 +337,7 @@ TEST_CASE("weights of a blend that fall to zero are noted where they stand") {
         parts + "}}}}}");
   };
   CHECK(blend("[[\"w\", [[0, 1], [1, 0]]], [\"w\", 0]]") ==
-        "n.json:2:54: note: these weights sum to zero from 1 s on: the pose below the graph shows then (at "
+        "n.json:2:49: note: these weights sum to zero from 1 s on: the pose below the graph shows then (at "
         "/graphs/g/poses/p/blend)\n");
   CHECK(blend("[[\"w\", [[0, 1], [1, 0.1]]]]").empty());
 }

@@ -190,7 +190,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::I
   });
   if (unfit) return std::nullopt;
   effort.alone = effort.alone || driven;
-  islands::ShiftedApart::mark(island.contacts);
+  islands::ShiftedApart::mark(island.contacts, bodies);
   return effort;
 }
 

@@ -27,6 +27,7 @@ template <class State, class Visit>
 void each_moving_field(State& state, const Visit& visit) {
   visit(state.time, state.steps, state.splits, state.jumped);
   for (auto& body : state.bodies) visit(body);
+  if constexpr (!std::is_const_v<State>) state.ramps = true;
   for (auto& armed : state.armed) visit(armed);
   visit(state.blows, state.presses, state.passing, state.strained, state.torn);
   visit.rarely(state.squeezed);
