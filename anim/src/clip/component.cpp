@@ -29,7 +29,7 @@ Curve<double> like(const Curve<double>& curve, Curve<double>::Formula formula) {
   return with_leaping(curve.knots().empty()
                           ? Curve<double>(std::move(formula), curve.start(), curve.end())
                           : Curve<double>(std::move(formula), {curve.knots().begin(), curve.knots().end()}),
-                      {parts.begin(), parts.end()});
+                      parts);
 }
 
 Curve<double> moved_by(const Curve<double>& curve, double offset) {
@@ -103,8 +103,7 @@ Curve<Color> color_of(const Parts& parts, const std::optional<Color>& own) {
   };
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return with_leaping(
-      knots.empty() ? Curve<Color>(sampler, -infinity, infinity) : Curve<Color>(sampler, std::move(knots)),
-      std::move(leaps));
+      knots.empty() ? Curve<Color>(sampler, -infinity, infinity) : Curve<Color>(sampler, std::move(knots)), leaps);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ Curve<T> made(typename Curve<T>::Formula formula, const Curves& parts) {
     const std::vector<NumberOverTime>& own = CurveAccess::leaping(part);
     leaping.insert(leaping.end(), own.begin(), own.end());
   }
-  return CurveAccess::with_leaping(Curve<T>(std::move(formula), extent.start, extent.end), std::move(leaping))
+  return CurveAccess::with_leaping(Curve<T>(std::move(formula), extent.start, extent.end), leaping)
       .with_outside({extent.before, {}, extent.plays_before}, {extent.after, {}, extent.plays_after});
 }
 

@@ -208,9 +208,9 @@ struct CurveAccess {
     return curve.data_->leaping;
   }
   template <class T>
-  static Curve<T> with_leaping(const Curve<T>& curve, std::vector<NumberOverTime> parts) {
+  static Curve<T> with_leaping(const Curve<T>& curve, std::span<const NumberOverTime> parts) {
     auto data = std::make_shared<typename Curve<T>::Data>(*curve.data_);
-    data->leaping = std::move(parts);
+    data->leaping.assign(parts.begin(), parts.end());
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
@@ -219,7 +219,7 @@ struct CurveAccess {
   static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end,
                                const spans::Breaks& breaks, const OutsideRule<T>& before, const OutsideRule<T>& after,
                                std::function<Curve<T>(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt,
-                               std::vector<NumberOverTime> leaping = {}) {
+                               std::span<const NumberOverTime> leaping = {}) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = std::move(formula);
     data->start = start;
@@ -229,7 +229,7 @@ struct CurveAccess {
     data->before.rule = before;
     data->after.rule = after;
     data->rebuilt = std::move(rebuilt);
-    data->leaping = std::move(leaping);
+    data->leaping.assign(leaping.begin(), leaping.end());
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 

@@ -70,8 +70,8 @@ std::span<const NumberOverTime> leaping(const Curve<T>& curve) noexcept {
 }
 
 template <class T>
-Curve<T> with_leaping(const Curve<T>& curve, std::vector<NumberOverTime> parts) {
-  return CurveAccess::with_leaping(curve, std::move(parts));
+Curve<T> with_leaping(const Curve<T>& curve, std::span<const NumberOverTime> parts) {
+  return CurveAccess::with_leaping(curve, parts);
 }
 
 template std::span<const NumberOverTime> leaping<double>(const Curve<double>&) noexcept;
@@ -80,11 +80,11 @@ template std::span<const NumberOverTime> leaping<Vec3>(const Curve<Vec3>&) noexc
 template std::span<const NumberOverTime> leaping<Vec4>(const Curve<Vec4>&) noexcept;
 template std::span<const NumberOverTime> leaping<Color>(const Curve<Color>&) noexcept;
 template std::span<const NumberOverTime> leaping<Quat>(const Curve<Quat>&) noexcept;
-template Curve<double> with_leaping<double>(const Curve<double>&, std::vector<NumberOverTime>);
-template Curve<Vec2> with_leaping<Vec2>(const Curve<Vec2>&, std::vector<NumberOverTime>);
-template Curve<Vec3> with_leaping<Vec3>(const Curve<Vec3>&, std::vector<NumberOverTime>);
-template Curve<Vec4> with_leaping<Vec4>(const Curve<Vec4>&, std::vector<NumberOverTime>);
-template Curve<Color> with_leaping<Color>(const Curve<Color>&, std::vector<NumberOverTime>);
-template Curve<Quat> with_leaping<Quat>(const Curve<Quat>&, std::vector<NumberOverTime>);
+template Curve<double> with_leaping<double>(const Curve<double>&, std::span<const NumberOverTime>);
+template Curve<Vec2> with_leaping<Vec2>(const Curve<Vec2>&, std::span<const NumberOverTime>);
+template Curve<Vec3> with_leaping<Vec3>(const Curve<Vec3>&, std::span<const NumberOverTime>);
+template Curve<Vec4> with_leaping<Vec4>(const Curve<Vec4>&, std::span<const NumberOverTime>);
+template Curve<Color> with_leaping<Color>(const Curve<Color>&, std::span<const NumberOverTime>);
+template Curve<Quat> with_leaping<Quat>(const Curve<Quat>&, std::span<const NumberOverTime>);
 
 }  // namespace tweenfall

@@ -91,7 +91,7 @@ Curve<double> expression_curve(const Expression& expression) {
         return s;
       },
       -endless, endless);
-  return leaping.empty() ? curve : with_leaping(curve, std::move(leaping));
+  return leaping.empty() ? curve : with_leaping(curve, leaping);
 }
 
 }  // namespace tweenfall

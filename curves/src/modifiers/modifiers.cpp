@@ -126,7 +126,7 @@ Curve<double> modified(const Curve<double>& curve, std::span<const Modifier> mod
       [curve, kept](const OutsideRule<double>& before, const OutsideRule<double>& after) {
         return modified(curve.with_outside(before, after), kept);
       },
-      {[stack](double time, Side side) { return stack->sample(time, side); }});
+      std::vector<NumberOverTime>{[stack](double time, Side side) { return stack->sample(time, side); }});
 }
 
 }  // namespace tweenfall

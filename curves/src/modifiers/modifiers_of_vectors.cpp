@@ -58,7 +58,7 @@ Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> 
       [curve, kept](const OutsideRule<T>& before, const OutsideRule<T>& after) {
         return modified<T>(curve.with_outside(before, after), std::span<const std::vector<Modifier>>(kept));
       },
-      std::move(leaping));
+      leaping);
 }
 
 template Curve<Vec2> modified<Vec2>(const Curve<Vec2>&, std::span<const std::vector<Modifier>>);

@@ -28,6 +28,6 @@ template <class T>
 
 /// The same curve, whose formula may leap where these parts do.
 template <class T>
-[[nodiscard]] Curve<T> with_leaping(const Curve<T>& curve, std::vector<NumberOverTime> parts);
+[[nodiscard]] Curve<T> with_leaping(const Curve<T>& curve, std::span<const NumberOverTime> parts);
 
 }  // namespace tweenfall
