@@ -29,7 +29,7 @@ namespace tweenfall::attack {
 
 namespace {
 
-constexpr double most_seconds = 10;         // of a processor: on a crowded machine everything takes long
+constexpr double most_seconds = 30;         // of a processor: sanitizers and a slow one take several times as long
 constexpr double most_clock_seconds = 100;  // for waiting, and for programs that a case starts
 constexpr rlim_t most_bytes = rlim_t{4} << 30;
 
