@@ -110,7 +110,7 @@ TEST_CASE("scenario 5: a track drives a belt, on which a box slips for 0.3823 s 
 }
 
 TEST_CASE("scenario 9: on an elevator that never falls a box stays, and presses as it must") {
-  for (const double step : {1.0 / 240, 1.0 / 960}) {
+  for (const double step : {1.0 / 60, 1.0 / 240, 1.0 / 960}) {
     StageDescription stage = described(
         R"("lift": {"position": [0, 0, 0], "body": {"shape": {"box": {"size": [2, 0.2, 2]}}}},
            "box": {"position": [0, -0.3, 0], "body": {"shape": {"box": {"size": [0.2, 0.2, 0.2]}}, "mass": 2}})",
@@ -119,14 +119,17 @@ TEST_CASE("scenario 9: on an elevator that never falls a box stays, and presses 
     Stage run(stage);
     double low = 1, high = -1, worst = 0;
     Vec3 before(0, 0, 0);
-    while (run.time() < 6) {
-      const double middle = run.time() + step / 2;
-      run.advance(step);
+    for (int i = 0; run.time() < 6; ++i) {
+      const double middle = (i + 0.5) * step;
+      // Also as it is shown between two steps.
+      for (const double part : {0.25, 0.5, 0.75, 1.0}) {
+        run.advance_to((i + part) * step);
+        const double gap = place(run, "box").y() - place(run, "lift").y() - 0.2;
+        low = std::min(low, gap);
+        high = std::max(high, gap);
+      }
       const double force = -(run.reaction(run.node("lift")) - before).y() / step;
       before = run.reaction(run.node("lift"));
-      const double gap = place(run, "box").y() - place(run, "lift").y() - 0.2;
-      low = std::min(low, gap);
-      high = std::max(high, gap);
       const double expected = 2 * (g + 0.5 * pi * pi * std::cos(pi * middle));
       if (run.time() > 0.1) worst = std::max(worst, std::abs(force / expected - 1));
     }
