@@ -2,8 +2,10 @@
 
 #include <cstring>
 
+#include "contacts/contact_constraint.h"
 #include "islands/blocks/coloring.h"
 #include "islands/blocks/contact_block.h"
+#include "islands/blocks/island_body.h"
 #include "support.h"
 
 using namespace tweenfall;
@@ -64,6 +66,8 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
     std::vector<MeetingRow> meetings;
     std::vector<BodyLanes> velocities, displacements;
     std::vector<BodyLag> lags;
+    std::vector<ContactOrigin> origins;
+    std::vector<IslandBody> bodies;
     [[nodiscard]] Rows rows() {
       return {.blocks = blocks.data(),
               .pairs = blocks.size() / 2,
@@ -75,6 +79,8 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
               .frictions = frictions.data(),
               .drifts = drifts.data(),
               .inertias = inertias.data(),
+              .origins = origins.data(),
+              .bodies = bodies.data(),
               .meetings = meetings.data(),
               .ball_meetings = meetings.data(),
               .velocities = velocities.data(),
@@ -142,10 +148,43 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
     make_positive(ball.mass);
     make_positive(ball.impulse);
   }
+  // What rows are prepared from.
+  std::vector<contacts::ContactConstraint> contacts(lane_count * count);
+  const auto some_vector = [&random] {
+    return Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+  };
+  first.origins.resize(count);
+  for (int i = 0; i < count; ++i)
+    for (int lane = 0; lane < lane_count; ++lane) {
+      contacts::ContactConstraint& contact = contacts[static_cast<std::size_t>(lane_count * i + lane)];
+      contact.count = 1 + (i + lane) % first.blocks[static_cast<std::size_t>(i)].points;
+      contact.eased = random.between(0, 1);
+      for (contacts::PointConstraint& point : contact.points) {
+        point.start_arm_a = some_vector();
+        point.start_arm_b = some_vector();
+        point.start_gap = random.between(-1, 1);
+        point.skin_a = random.between(0, 1);
+        point.skin_b = random.between(0, 1);
+      }
+      if (i % 4 != 3 || lane % 3 != 0)
+        first.origins[static_cast<std::size_t>(i)][static_cast<std::size_t>(lane)] = &contact;
+    }
+  first.bodies.resize(lane_count * count);
+  for (std::size_t i = 0; i < first.bodies.size(); ++i) {
+    IslandBody& body = first.bodies[i];
+    const Mat3 some = Mat3::NullaryExpr([&random] { return random.between(-1, 1); });
+    body.inverse_inertia = some * some.transpose();
+    body.stale = i % 5 == 0;
+    for (double& number : body.turn.rotation) number = random.between(-1, 1);
+    for (double& number : body.turn.angle) number = random.between(-1, 1);
+  }
   const Work before = first;
   std::vector<std::uint32_t> found_first(lane_count * 2 * count);
   const auto run = [](Work& work, const Kernels& kernels, std::vector<std::uint32_t>& found) {
+    kernels.prepare(work.rows());
+    kernels.prepare_again(work.rows(), false);
     kernels.warm_start(work.rows());
+    kernels.prepare_again(work.rows(), true);
     const std::size_t meetings = kernels.find_meetings(work.rows(), work.displacements.data(), 0.01, found.data());
     found.resize(meetings);
     for (const int passes : {1, 3, 1})
@@ -166,6 +205,7 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
     CHECK(same(first.velocities, second.velocities));
     CHECK(same(first.points, second.points));
     CHECK(same(first.frictions, second.frictions));
+    CHECK(same(first.inertias, second.inertias));
     CHECK(same(first.balls, second.balls));
     CHECK(same(first.lags, second.lags));
   }
@@ -174,6 +214,101 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
   CHECK(!same(first.balls, before.balls));
   CHECK(!same(first.lags, before.lags));
   if (possible_kernels().size() == 1) MESSAGE("SKIPPED: this processor has one instruction set only");
+}
+
+TEST_CASE("rows are prepared as rigid bodies turn: masses at the points, and friction along both tangents") {
+  using namespace blocks;
+  test::Random random(12);
+  const auto some_vector = [&random] {
+    return Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+  };
+  // One lane of eight is filled, by a contact of two of three points.
+  std::vector<contacts::ContactConstraint> contacts(1);
+  contacts[0].count = 2;
+  for (contacts::PointConstraint& point : contacts[0].points) {
+    point.start_arm_a = some_vector();
+    point.start_arm_b = some_vector();
+    point.start_gap = random.between(-1, 1);
+    point.skin_b = 0.1;
+  }
+  std::vector<IslandBody> bodies(3);
+  const Mat3 some = Mat3::NullaryExpr([&random] { return random.between(-1, 1); });
+  bodies[1].inverse_inertia = some * some.transpose();
+  bodies[2].inverse_inertia = some.transpose() * some;
+  const Vec3 angle(0.1, -0.2, 0.15);
+  const Quat turn = exp_map(angle);
+  std::copy_n(turn.coeffs().data(), 4, bodies[2].turn.rotation);
+  std::copy_n(angle.data(), 3, bodies[2].turn.angle);
+  ContactBlock block{};
+  block.points = block.frictions = 3;
+  block.even = false;
+  constexpr int lane = 5;
+  block.a[lane] = 1;
+  block.b[lane] = 2;
+  block.inverse_mass_a[lane] = 2;
+  block.inverse_mass_b[lane] = 0.5;
+  const Quat frame = exp_map(some_vector());
+  const Vec3 normal = frame * Vec3(1, 0, 0), tangent1 = frame * Vec3(0, 1, 0), tangent2 = frame * Vec3(0, 0, 1);
+  const auto put = [](Lanes3& lanes, const Vec3& value) {
+    lanes.x[lane] = value.x();
+    lanes.y[lane] = value.y();
+    lanes.z[lane] = value.z();
+  };
+  put(block.normal, normal);
+  put(block.tangent1, tangent1);
+  put(block.tangent2, tangent2);
+  ContactOrigin origin{};
+  origin[lane] = contacts.data();
+  std::vector<PointRow> points(3);
+  std::vector<FrictionRow> frictions(3);
+  std::vector<BodyLanes> velocities(3);
+  InertiaRow inertia{};
+  const Rows rows{.blocks = &block,
+                  .pairs = 1,
+                  .count = 1,
+                  .points = points.data(),
+                  .frictions = frictions.data(),
+                  .inertias = &inertia,
+                  .origins = &origin,
+                  .bodies = bodies.data(),
+                  .velocities = velocities.data()};
+  for (const bool turned : {false, true}) {
+    CAPTURE(turned);
+    if (turned) {
+      bodies[2].stale = true;
+      fastest_kernels().prepare_again(rows, false);
+    } else {
+      fastest_kernels().prepare(rows);
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      const contacts::PointConstraint& point = contacts[0].points[i];
+      const Vec3 arm_a = point.start_arm_a;
+      const Vec3 skin = -point.skin_b * normal;
+      const Vec3 arm_b = turned ? Vec3(turn * (point.start_arm_b - skin) + skin) : point.start_arm_b;
+      const auto effect = [&](const Vec3& along, const Vec3& by) {
+        const Vec3 spin_a = bodies[1].inverse_inertia * arm_a.cross(by);
+        const Vec3 spin_b = bodies[2].inverse_inertia * arm_b.cross(by);
+        return 2.5 * along.dot(by) + along.dot(spin_a.cross(arm_a)) + along.dot(spin_b.cross(arm_b));
+      };
+      CHECK(points[i].mass[lane] * effect(normal, normal) == doctest::Approx(1).epsilon(1e-12));
+      const FrictionRow& row = frictions[i];
+      // Times the effect of both tangents on each other, this is one.
+      const double e11 = effect(tangent1, tangent1), e12 = effect(tangent1, tangent2), e22 = effect(tangent2, tangent2);
+      CHECK(row.inverse11[lane] * e11 + row.inverse12[lane] * e12 == doctest::Approx(1).epsilon(1e-11));
+      CHECK(std::abs(row.inverse11[lane] * e12 + row.inverse12[lane] * e22) < 1e-11);
+      CHECK(row.inverse12[lane] * e12 + row.inverse22[lane] * e22 == doctest::Approx(1).epsilon(1e-11));
+      // The gap that the rows see, where the body is, is that of the turned arm.
+      if (!turned) continue;
+      const Vec3 across(points[i].turn_b.x[lane], points[i].turn_b.y[lane], points[i].turn_b.z[lane]);
+      CHECK(points[i].base[lane] + across.dot(angle) ==
+            doctest::Approx(point.start_gap + normal.dot(arm_b - point.start_arm_b)).epsilon(1e-12));
+    }
+    for (int other = 0; other < lane_count; ++other) {
+      if (other != lane) CHECK(points[0].mass[other] == 0);
+      CHECK(points[2].mass[other] == 0);
+      CHECK(frictions[2].firm[other] == 0);
+    }
+  }
 }
 
 TEST_CASE("a cloud of bodies that meets in its middle keeps its momentum, and gains no energy") {

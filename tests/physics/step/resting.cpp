@@ -226,7 +226,7 @@ TEST_CASE("a column that begins in itself is taken apart gently: nothing is thro
         CHECK(fastest < 0.2);
         CHECK(quickest < push + 0.1);
         CHECK(highest < 5e-4);
-        CHECK(astray < 0.02);
+        CHECK(astray < 0.05);
         CHECK(std::abs(world.motion(boxes.back()).pose.position.y() - rest) < 5e-3);
         CHECK(world.kinetic_energy() < 1e-2);  // the tallest still sways a little
       }

@@ -242,6 +242,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
   // A turning body keeps the rest of an uneven push, since it lets go of what it touches; the same rest would move
   // sideways what is being pushed out.
   const bool is_turning = fastest * dt > turns;
+  if (is_turning) effort.turned_enough = turned_enough;
   effort.settled = is_turning ? settled_of_turning : settled_of_resting;
   if ((is_turning && effort.single) || is_pushed_out) effort.softening = effort.relaxing = 3 * settings.iterations;
   if (is_turning && !is_pushed_out) {

@@ -133,6 +133,8 @@ Rows BlockSolver::rows() {
   rows.frictions = contacts_.frictions.data();
   rows.drifts = contacts_.drifts.data();
   rows.inertias = contacts_.inertias.data();
+  rows.origins = contacts_.origins.data();
+  rows.bodies = bodies_.data();
   rows.meetings = contacts_.meetings.data();
   rows.ball_meetings = contacts_.ball_meetings.data();
   rows.velocities = velocities_.data();
@@ -171,6 +173,8 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   contacts_.build(contacts, places_, bodies_, closings_, h, work_);
   velocities_.resize(contacts_.room);
   lags_.resize(contacts_.room);
+  each_block([&](const Rows& some) { kernels.prepare(some); });
+  contacts_.prepare_drifts(bodies_, false);
   holds_.gather(contacts_, h);
   reach_.forget();
   joints_.build(island.joints, bodies, places_, bodies_, h, dt, work_);

@@ -138,6 +138,13 @@ class BlockSolver {
       });
     }
   }
+  /// Calls see(rows) for all blocks, in parts and in any order.
+  template <class See>
+  void each_block(const See& see) {
+    const Rows all = rows();
+    work_.ranges(contacts_.blocks.size(), blocks_worth_a_part,
+                 [&](std::size_t begin, std::size_t end) { see(part_of(all, false, begin, end)); });
+  }
   /// Calls see(place) for all bodies.
   template <class See>
   void each_body(const See& see) const {

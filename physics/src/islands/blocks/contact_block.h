@@ -2,12 +2,22 @@
 
 /// Contacts of eight pairs that share no movable body, row by row.
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 #include "islands/blocks/lanes.h"
 
+namespace tweenfall::contacts {
+struct ContactConstraint;
+}
+
 namespace tweenfall::blocks {
+
+struct IslandBody;
+
+/// The contacts of a block; null for an empty lane.
+using ContactOrigin = std::array<contacts::ContactConstraint*, lane_count>;
 
 /// What rows change in a body: its velocity; in another array, its displacement since the start of the step.
 struct alignas(64) BodyLanes {
@@ -125,7 +135,9 @@ struct Rows {
   PointRow* points = nullptr;
   FrictionRow* frictions = nullptr;
   const DriftRow* drifts = nullptr;  ///< parallel to `frictions`; not read for blocks without any
-  const InertiaRow* inertias = nullptr;
+  InertiaRow* inertias = nullptr;
+  const ContactOrigin* origins = nullptr;  ///< of blocks
+  const IslandBody* bodies = nullptr;
   const MeetingRow* meetings = nullptr;       ///< of blocks
   const MeetingRow* ball_meetings = nullptr;  ///< of balls
   BodyLanes* velocities = nullptr;
@@ -138,15 +150,22 @@ struct Rows {
   rows.pairs = rows.count = of_balls ? 0 : end - begin;
   rows.ball_pairs = rows.ball_count = of_balls ? end - begin : 0;
   (of_balls ? rows.ball_meetings : rows.meetings) += begin;
-  if (of_balls)
+  if (of_balls) {
     rows.balls += begin;
-  else
+  } else {
     rows.blocks += begin;
+    rows.origins += begin;
+  }
   return rows;
 }
 
 /// Operations on rows, for one instruction set. All sets give the same bits.
 struct Kernels {
+  /// Finds directions, masses and friction of the blocks, where the bodies are at the start of the step.
+  void (*prepare)(const Rows& rows);
+  /// Again for bodies that have turned since. @param given  what the impulses of the sub-step before gave is in the
+  /// velocities
+  void (*prepare_again)(const Rows& rows, bool given);
   /// Applies the impulses of the sub-step before again.
   void (*warm_start)(const Rows& rows);
   /// Passes over each of the blocks: friction on the circular cone, then the normals.

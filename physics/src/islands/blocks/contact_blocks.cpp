@@ -24,53 +24,10 @@ void put(Lanes3& lanes, int lane, const Vec3& value) {
   lanes.z[lane] = value.z();
 }
 
-void put(LanesSymmetric& lanes, int lane, const Mat3& value) {
-  lanes.xx[lane] = value(0, 0);
-  lanes.yy[lane] = value(1, 1);
-  lanes.zz[lane] = value(2, 2);
-  lanes.xy[lane] = value(0, 1);
-  lanes.xz[lane] = value(0, 2);
-  lanes.yz[lane] = value(1, 2);
-}
-
 void put(MeetingRow& row, int lane, const contacts::Closing& closing, bool heeded) {
   row.pull[lane] = closing.pull;
   row.tremble[lane] = closing.tremble;
   row.heeded[lane] = heeded ? 1 : 0;
-}
-
-/// The inverse masses and inertias of two bodies, for the rows of a contact.
-struct Masses {
-  const IslandBody &a, &b;
-  bool isotropic = a.isotropic && b.isotropic;
-  double inverse_mass = a.inverse_mass + b.inverse_mass;
-
-  /// Relative speed of two points per unit of impulse from turning the bodies; arguments are arm x direction.
-  [[nodiscard]] double turning(const Vec3& a1, const Vec3& b1, const Vec3& a2, const Vec3& b2) const {
-    if (isotropic) return a.inverse_moment * a1.dot(a2) + b.inverse_moment * b1.dot(b2);
-    return a1.dot(a.inverse_inertia * a2) + b1.dot(b.inverse_inertia * b2);
-  }
-};
-
-/// One row of friction at an arm from each body.
-void prepare_friction(FrictionRow& row, int lane, const step::Tangents& along, const Masses& masses, const Vec3& arm_a,
-                      const Vec3& arm_b) {
-  const Vec3 a1 = arm_a.cross(along.first), a2 = arm_a.cross(along.second);
-  const Vec3 b1 = arm_b.cross(along.first), b2 = arm_b.cross(along.second);
-  put(row.first_a, lane, a1);
-  put(row.second_a, lane, a2);
-  put(row.first_b, lane, b1);
-  put(row.second_b, lane, b2);
-  const double k11 = masses.inverse_mass + masses.turning(a1, b1, a1, b1);
-  const double k22 = masses.inverse_mass + masses.turning(a2, b2, a2, b2);
-  const double k12 = masses.turning(a2, b2, a1, b1);
-  const double determinant = k11 * k22 - k12 * k12;
-  const bool solvable = determinant > 0;
-  const double inverse = solvable ? 1 / determinant : 0;
-  row.inverse11[lane] = k22 * inverse;
-  row.inverse12[lane] = -k12 * inverse;
-  row.inverse22[lane] = k11 * inverse;
-  row.firm[lane] = solvable ? 1 / (0.5 * (k11 + k22) + std::sqrt(0.25 * (k11 - k22) * (k11 - k22) + k12 * k12)) : 0;
 }
 
 template <class Visit>
@@ -211,110 +168,6 @@ void ContactBlocks::fill(std::size_t index, int lane, ContactConstraint& contact
     frictions[block.friction].first[lane] = ratio * along.first.dot(friction);
     frictions[block.friction].second[lane] = ratio * along.second.dot(friction);
   }
-  prepare(index, lane, bodies, {}, nullptr);
-}
-
-void ContactBlocks::prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a,
-                                  const IslandBody& b, const Vec3& arm_a, const Vec3& arm_b) {
-  if (!a.conveys && !b.conveys && a.led == step::not_led && b.led == step::not_led) return;
-  block.drifts = true;
-  const Vec3 drift = step::drift_at(a.surface, arm_a, b.surface, arm_b);
-  drifts[row].first[lane] = drifts[row].later_first[lane] = lane_of(block.tangent1, lane).dot(drift);
-  drifts[row].second[lane] = drifts[row].later_second[lane] = lane_of(block.tangent2, lane).dot(drift);
-  drifts[row].twist[lane] = lane_of(block.normal, lane).dot(b.surface.angular - a.surface.angular);
-}
-
-void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<IslandBody>& bodies,
-                            std::span<const BodyTurn> turns, const BodyLanes* displacements) {
-  ContactBlock& block = blocks[index];
-  const ContactConstraint& contact = *origins[index][static_cast<std::size_t>(lane)];
-  const IslandBody& a = bodies[block.a[lane]];
-  const IslandBody& b = bodies[block.b[lane]];
-  const Vec3& normal = contact.manifold.normal;
-  const Masses masses{a, b};
-  if (!block.even) {
-    // Two isotropic bodies give the same bits as in an even block.
-    put(inertias[block.inertia].inverse_a, lane,
-        masses.isotropic ? Mat3(a.inverse_moment * Mat3::Identity()) : a.inverse_inertia);
-    put(inertias[block.inertia].inverse_b, lane,
-        masses.isotropic ? Mat3(b.inverse_moment * Mat3::Identity()) : b.inverse_inertia);
-  }
-  Vec3 middle_a = Vec3::Zero(), middle_b = Vec3::Zero();
-  std::array<Vec3, 4> arms;
-  const step::Tangents along{lane_of(block.tangent1, lane), lane_of(block.tangent2, lane)};
-  const double share = 1.0 / contact.count;
-  const auto turn_of = [&](std::uint32_t place) -> Quat {
-    if (!displacements) return Quat::Identity();
-    return turns[place].after(bodies[place].rotation) * bodies[place].start_rotation.conjugate();
-  };
-  const Quat turn_a = turn_of(block.a[lane]), turn_b = turn_of(block.b[lane]);
-  for (int i = 0; i < contact.count; ++i) {
-    const PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
-    PointRow& row = points[block.point + static_cast<std::uint32_t>(i)];
-    Vec3 arm_a = point.start_arm_a, arm_b = point.start_arm_b;
-    if (displacements) {
-      arm_a = state::carried(turn_a, arm_a, point.skin_a * normal);
-      arm_b = state::carried(turn_b, arm_b, -point.skin_b * normal);
-    }
-    const Vec3 across_a = arm_a.cross(normal), across_b = arm_b.cross(normal);
-    put(row.turn_a, lane, across_a);
-    put(row.turn_b, lane, across_b);
-    const double inverse = masses.inverse_mass + masses.turning(across_a, across_b, across_a, across_b);
-    row.mass[lane] = inverse > 0 ? 1 / inverse : 0;
-    if (displacements) {
-      // The rows add the whole displacement of the step to it.
-      row.base[lane] = contacts::eased_gap(contact, point) +
-                       normal.dot((arm_b - point.start_arm_b) - (arm_a - point.start_arm_a)) -
-                       (across_b.dot(angular_of(displacements[block.b[lane]])) -
-                        across_a.dot(angular_of(displacements[block.a[lane]])));
-    }
-    if (block.frictions == block.points) {
-      const std::uint32_t grip = block.friction + static_cast<std::uint32_t>(i);
-      prepare_friction(frictions[grip], lane, along, masses, arm_a, arm_b);
-      prepare_drift(block, grip, lane, a, b, arm_a, arm_b);
-    }
-    arms[static_cast<std::size_t>(i)] = arm_b;
-    middle_a += share * arm_a;
-    middle_b += share * arm_b;
-  }
-  if (!block.central()) return;
-  for (int i = 0; i < contact.count; ++i)
-    points[block.point + static_cast<std::uint32_t>(i)].lever[lane] =
-        (arms[static_cast<std::size_t>(i)] - middle_b).norm();
-  prepare_friction(frictions[block.friction], lane, along, masses, middle_a, middle_b);
-  prepare_drift(block, block.friction, lane, a, b, middle_a, middle_b);
-  const double inverse = masses.turning(normal, normal, normal, normal);
-  block.twist_mass[lane] = inverse > 0 ? 1 / inverse : 0;
-}
-
-ContactBlocks::Spins ContactBlocks::given_spins(std::size_t index, int lane) const {
-  const ContactBlock& block = blocks[index];
-  const Vec3 twist = block.central() ? Vec3(block.twist[lane] * lane_of(block.normal, lane)) : Vec3(Vec3::Zero());
-  Vec3 turn_a = twist, turn_b = twist;
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(block.points); ++i) {
-    const PointRow& row = points[block.point + i];
-    const double impulse = row.impulse[lane];
-    if (impulse == 0) continue;
-    turn_a += impulse * lane_of(row.turn_a, lane);
-    turn_b += impulse * lane_of(row.turn_b, lane);
-  }
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(block.frictions); ++i) {
-    const FrictionRow& row = frictions[block.friction + i];
-    const double first = row.first[lane], second = row.second[lane];
-    if (first == 0 && second == 0) continue;
-    turn_a += first * lane_of(row.first_a, lane) + second * lane_of(row.second_a, lane);
-    turn_b += first * lane_of(row.first_b, lane) + second * lane_of(row.second_b, lane);
-  }
-  if (block.even) return {-block.inverse_moment_a[lane] * turn_a, block.inverse_moment_b[lane] * turn_b};
-  const auto times = [lane](const LanesSymmetric& inverse, const Vec3& turn) -> Vec3 {
-    const auto along = [&](const Lanes& x, const Lanes& y, const Lanes& z) {
-      return x[lane] * turn.x() + y[lane] * turn.y() + z[lane] * turn.z();
-    };
-    return {along(inverse.xx, inverse.xy, inverse.xz), along(inverse.xy, inverse.yy, inverse.yz),
-            along(inverse.xz, inverse.yz, inverse.zz)};
-  };
-  const InertiaRow& inertia = inertias[block.inertia];
-  return {-times(inertia.inverse_a, turn_a), times(inertia.inverse_b, turn_b)};
 }
 
 void ContactBlocks::store(double h, double dt, double parts, const threads::Workers& work) {

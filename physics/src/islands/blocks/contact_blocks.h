@@ -17,8 +17,7 @@ namespace tweenfall::blocks {
 /// The contacts of an island, eight at a time, by color.
 class ContactBlocks {
  public:
-  /// The contacts of a block; null for an empty lane.
-  using Origin = std::array<contacts::ContactConstraint*, lane_count>;
+  using Origin = ContactOrigin;
 
   /// Sorts the contacts and starts with the impulses that they kept.
   /// @param places    from a body's index to its place in `bodies`
@@ -26,14 +25,8 @@ class ContactBlocks {
   void build(std::span<contacts::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
              const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings, double h,
              const threads::Workers& work);
-  /// Updates the rows of one contact to the present positions of its bodies.
-  void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, std::span<const BodyTurn> turns,
-               const BodyLanes* displacements);
-  /// The spins that its impulses give the two bodies of a contact, rad/s.
-  struct Spins {
-    Vec3 a, b;
-  };
-  [[nodiscard]] Spins given_spins(std::size_t block, int lane) const;
+  /// After the rows were prepared: how surfaces move at them. @param again  only for bodies that have turned since
+  void prepare_drifts(const std::vector<IslandBody>& bodies, bool again);
   /// In a sub-step with led bodies: adds what the slip of their riders lacks.
   void ride(const std::vector<IslandBody>& bodies, std::span<const step::LedBody> led,
             const std::vector<BodyLanes>& starts, double h);
@@ -110,9 +103,6 @@ class ContactBlocks {
             const Ends& own, const contacts::Closing& closing, double h);
   void fill_ball(std::size_t ball, int lane, contacts::ContactConstraint& contact,
                  const std::vector<IslandBody>& bodies, const Ends& own, const contacts::Closing& closing, double h);
-
-  void prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a, const IslandBody& b,
-                     const Vec3& arm_a, const Vec3& arm_b);
 
   bool drifting_ = false;  ///< some surface moves, or something is led
   Coloring coloring_;

@@ -72,6 +72,14 @@ struct alignas(32) BodyTurn {
   }
 };
 
+/// How a body had turned since the start of the step when its rows were prepared.
+struct alignas(32) TurnOfRows {
+  double rotation[4] = {0, 0, 0, 1};  ///< quaternion x, y, z, w
+  double angle[4] = {};               ///< sum of the turns, rad: x, y, z and nothing
+
+  [[nodiscard]] Quat quaternion() const { return {rotation[3], rotation[0], rotation[1], rotation[2]}; }
+};
+
 /// A body of an island while its contacts are being solved; its velocity is kept apart.
 struct alignas(64) IslandBody {
   std::uint32_t index = 0;
@@ -93,6 +101,7 @@ struct alignas(64) IslandBody {
   Mat3 inverse_inertia = Mat3::Zero();  ///< world axes, when its rows were prepared
   Vec3 center{0, 0, 0};                 ///< of a steady body: at the start of the step, until its end
   Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
+  TurnOfRows turn;
   Quat free_rotation{1, 0, 0, 0};     ///< at the end of the sub-step if nothing touches it
   std::uint32_t led = step::not_led;  ///< its index among the led bodies
 

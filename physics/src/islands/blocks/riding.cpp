@@ -1,7 +1,9 @@
+#include <utility>
+
 #include "islands/blocks/contact_blocks.h"
 #include "step/contact_rows.h"
 
-/// Bodies carried by a led one.
+/// Surfaces that move, and bodies carried by a led one.
 
 namespace tweenfall::blocks {
 
@@ -36,7 +38,45 @@ Arms middle_of(const ContactConstraint& contact, const IslandBody& a, const Isla
   return middle;
 }
 
+/// Where the rows of a contact were prepared.
+std::pair<Vec3, Vec3> arms_of_rows(const ContactConstraint& contact, std::size_t i, const IslandBody& a,
+                                   const IslandBody& b) {
+  const PointConstraint& point = contact.points[i];
+  const Vec3 normal = contact.manifold.normal;
+  return {state::carried(a.turn.quaternion(), point.start_arm_a, point.skin_a * normal),
+          state::carried(b.turn.quaternion(), point.start_arm_b, -point.skin_b * normal)};
+}
+
 }  // namespace
+
+void ContactBlocks::prepare_drifts(const std::vector<IslandBody>& bodies, bool again) {
+  if (!drifting_) return;
+  const auto moves = [](const IslandBody& body) { return body.conveys || body.led != step::not_led; };
+  for (std::size_t index = 0; index < blocks.size(); ++index)
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const ContactConstraint* contact = origins[index][static_cast<std::size_t>(lane)];
+      if (!contact) continue;
+      ContactBlock& block = blocks[index];
+      const IslandBody &a = bodies[block.a[lane]], &b = bodies[block.b[lane]];
+      if ((!moves(a) && !moves(b)) || (again && !a.stale && !b.stale)) continue;
+      block.drifts = true;
+      const auto put = [&](DriftRow& row, const Vec3& arm_a, const Vec3& arm_b) {
+        const Vec3 drift = step::drift_at(a.surface, arm_a, b.surface, arm_b);
+        row.first[lane] = row.later_first[lane] = lane_of(block.tangent1, lane).dot(drift);
+        row.second[lane] = row.later_second[lane] = lane_of(block.tangent2, lane).dot(drift);
+        row.twist[lane] = lane_of(block.normal, lane).dot(b.surface.angular - a.surface.angular);
+      };
+      Vec3 middle_a = Vec3::Zero(), middle_b = Vec3::Zero();
+      const double share = 1.0 / contact->count;
+      for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(contact->count); ++i) {
+        const auto [arm_a, arm_b] = arms_of_rows(*contact, i, a, b);
+        middle_a += share * arm_a;
+        middle_b += share * arm_b;
+        if (block.frictions == block.points) put(drifts[block.friction + i], arm_a, arm_b);
+      }
+      if (block.central()) put(drifts[block.friction], middle_a, middle_b);
+    }
+}
 
 void ContactBlocks::ride(const std::vector<IslandBody>& bodies, std::span<const step::LedBody> led,
                          const std::vector<BodyLanes>& starts, double h) {

@@ -133,35 +133,19 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
     IslandBody& entry = bodies_[i];
     double& turned = turns_[i].turned;
     entry.stale = !entry.round && turned > (entry.led == step::not_led ? turned_enough_ : 0);
-    if (entry.stale) turned = 0;
+    if (entry.stale) {
+      turned = 0;
+      const Quat turn = turns_[i].after(entry.rotation) * entry.start_rotation.conjugate();
+      std::copy_n(turn.coeffs().data(), 4, entry.turn.rotation);
+      std::copy_n(displacements_[i].angular, 3, entry.turn.angle);
+    }
     if (!entry.movable) return;
     if (entry.stale || (!joints_.empty() && !bodies[entry.index].spherical()))
       entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
   });
-  const auto prepare = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const ContactBlock& block = contacts_.blocks[i];
-      for (int lane = 0; lane < lane_count; ++lane) {
-        if (!contacts_.origins[i][static_cast<std::size_t>(lane)]) continue;
-        if (!bodies_[block.a[lane]].stale && !bodies_[block.b[lane]].stale) continue;
-        if (!carries_on_) {
-          contacts_.prepare(i, lane, bodies_, turns_, displacements_.data());
-          continue;
-        }
-        // What it gave in the sub-step before now acts elsewhere.
-        const ContactBlocks::Spins before = contacts_.given_spins(i, lane);
-        contacts_.prepare(i, lane, bodies_, turns_, displacements_.data());
-        const ContactBlocks::Spins now = contacts_.given_spins(i, lane);
-        if (bodies_[block.a[lane]].movable) add(velocities_[block.a[lane]].angular, now.a - before.a);
-        if (bodies_[block.b[lane]].movable) add(velocities_[block.b[lane]].angular, now.b - before.b);
-      }
-    }
-  };
-  if (work_.threads() == 1) return prepare(0, contacts_.blocks.size());
-  for (const ContactBlocks::Phase& phase : contacts_.phases)
-    if (!phase.of_balls)
-      work_.ranges(phase.end - phase.begin, blocks_worth_a_part,
-                   [&](std::size_t begin, std::size_t end) { prepare(phase.begin + begin, phase.begin + end); });
+  const Kernels& kernels = fastest_kernels();
+  by_color([&](const Rows& some) { kernels.prepare_again(some, carries_on_); });
+  contacts_.prepare_drifts(bodies_, true);
 }
 
 void BlockSolver::include_turn(std::size_t place) {

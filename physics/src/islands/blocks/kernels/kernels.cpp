@@ -4,6 +4,7 @@
 #include "islands/blocks/kernels/arrival_work.h"
 #include "islands/blocks/kernels/ball_work.h"
 #include "islands/blocks/kernels/contact_work.h"
+#include "islands/blocks/kernels/preparing_work.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
 
@@ -67,6 +68,19 @@ TWEENFALL_LANES void do_all(const Rows& rows, const Work& work) {
   target void hold_##name(const Rows& rows) {                        \
     do_all(rows, RowWork<Numbers>::Hold{rows});                      \
   }
+// Few lanes of a block turn far in the same sub-step: four at a time are worth looking at.
+#define TWEENFALL_PREPARING(name, Four_, target)                                                              \
+  target void prepare_##name(const Rows& rows) {                                                              \
+    for (std::size_t i = 0; i < rows.count; ++i)                                                              \
+      PreparingWork<Halves<Four_>>::prepare_block(rows, rows.blocks[i], rows.origins[i]);                     \
+  }                                                                                                           \
+  target void prepare_again_##name(const Rows& rows, bool given) {                                            \
+    for (std::size_t i = 0; i < rows.count; ++i) {                                                            \
+      const Mask stale = stale_lanes(rows, rows.blocks[i], rows.origins[i]);                                  \
+      PreparingWork<LanesFrom<Four_, 0>>::prepare_again(rows, rows.blocks[i], rows.origins[i], stale, given); \
+      PreparingWork<LanesFrom<Four_, 4>>::prepare_again(rows, rows.blocks[i], rows.origins[i], stale, given); \
+    }                                                                                                         \
+  }
 #define TWEENFALL_MEETINGS(name, Numbers, target)                                                                      \
   target std::size_t find_meetings_##name(const Rows& rows, const BodyLanes* starts, double h, std::uint32_t* found) { \
     return ArrivalWork<Numbers>::find_meetings(rows, starts, h, found);                                                \
@@ -74,14 +88,18 @@ TWEENFALL_LANES void do_all(const Rows& rows, const Work& work) {
 
 TWEENFALL_KERNELS(plain, Halves<Halves<Two>>, )
 TWEENFALL_MEETINGS(plain, Halves<Halves<Two>>, )
-constexpr Kernels plain = {warm_start_plain, solve_plain, hold_plain, find_meetings_plain};
+TWEENFALL_PREPARING(plain, Halves<Two>, )
+constexpr Kernels plain = {prepare_plain, prepare_again_plain, warm_start_plain,
+                           solve_plain,   hold_plain,          find_meetings_plain};
 #if defined(__x86_64__) || defined(__i386__)
 TWEENFALL_KERNELS(avx2, Halves<Four>, [[gnu::target("avx2")]])
 TWEENFALL_MEETINGS(avx2, Halves<Four>, [[gnu::target("avx2")]])
-constexpr Kernels avx2 = {warm_start_avx2, solve_avx2, hold_avx2, find_meetings_avx2};
+TWEENFALL_PREPARING(avx2, Four, [[gnu::target("avx2")]])
+constexpr Kernels avx2 = {prepare_avx2, prepare_again_avx2, warm_start_avx2, solve_avx2, hold_avx2, find_meetings_avx2};
 // With eight comparisons at once, g++ evaluates their combination number by number, so it is avoided here.
 TWEENFALL_KERNELS(avx512, Eight, [[gnu::target("avx512f,avx512vl,avx512dq")]])
-constexpr Kernels avx512 = {warm_start_avx512, solve_avx512, hold_avx512, find_meetings_avx2};
+constexpr Kernels avx512 = {prepare_avx2, prepare_again_avx2, warm_start_avx512,
+                            solve_avx512, hold_avx512,        find_meetings_avx2};
 #endif
 
 }  // namespace

@@ -61,6 +61,33 @@ struct Halves {
   }
 };
 
+/// Only the lanes from `first` on, as many as fit into a `Part`.
+template <class Part, int first>
+struct LanesFrom {
+  Part of;
+
+#define TWEENFALL_PART(operation)                                                          \
+  TWEENFALL_LANES friend auto operator operation(const LanesFrom& a, const LanesFrom& b) { \
+    return LanesFrom<decltype(a.of operation b.of), first>{a.of operation b.of};           \
+  }
+  TWEENFALL_PART(+)
+  TWEENFALL_PART(-)
+  TWEENFALL_PART(*)
+  TWEENFALL_PART(/)
+  TWEENFALL_PART(&)
+  TWEENFALL_PART(|)
+  TWEENFALL_PART(>)
+  TWEENFALL_PART(<)
+  TWEENFALL_PART(>=)
+#undef TWEENFALL_PART
+  TWEENFALL_LANES friend LanesFrom operator-(const LanesFrom& a) {
+    return {-a.of};
+  }
+  TWEENFALL_LANES friend LanesFrom operator~(const LanesFrom& a) {
+    return {~a.of};
+  }
+};
+
 template <class Masks, class Register>
 TWEENFALL_LANES Register choose(const Masks& which, const Register& yes, const Register& no) {
   return which ? yes : no;
@@ -68,6 +95,12 @@ TWEENFALL_LANES Register choose(const Masks& which, const Register& yes, const R
 template <class Masks, class Half>
 TWEENFALL_LANES Halves<Half> choose(const Halves<Masks>& which, const Halves<Half>& yes, const Halves<Half>& no) {
   return {choose(which.low, yes.low, no.low), choose(which.high, yes.high, no.high)};
+}
+
+template <class Masks, class Part, int first>
+TWEENFALL_LANES LanesFrom<Part, first> choose(const LanesFrom<Masks, first>& which, const LanesFrom<Part, first>& yes,
+                                              const LanesFrom<Part, first>& no) {
+  return {choose(which.of, yes.of, no.of)};
 }
 
 TWEENFALL_LANES bool any_of(const TwoMasks& which) {
@@ -85,6 +118,11 @@ TWEENFALL_LANES bool any_of(const Halves<Half>& which) {
   return any_of(which.low | which.high);
 }
 
+template <class Part, int first>
+TWEENFALL_LANES bool any_of(const LanesFrom<Part, first>& which) {
+  return any_of(which.of);
+}
+
 TWEENFALL_LANES void fill(double value, Two& to) {
   to = Two{value, value};
 }
@@ -100,6 +138,11 @@ TWEENFALL_LANES void fill(double value, Halves<Half>& to) {
   fill(value, to.high);
 }
 
+template <class Part, int first>
+TWEENFALL_LANES void fill(double value, LanesFrom<Part, first>& to) {
+  fill(value, to.of);
+}
+
 template <class Register, class Item>
 TWEENFALL_LANES void load(const Item* from, Register& to) {
   Register numbers;
@@ -111,6 +154,10 @@ TWEENFALL_LANES void load(const Item* from, Halves<Half>& to) {
   load(from, to.low);
   load(from + sizeof(Half) / sizeof(Item), to.high);
 }
+template <class Part, int first, class Item>
+TWEENFALL_LANES void load(const Item* from, LanesFrom<Part, first>& to) {
+  load(from + first, to.of);
+}
 template <class Register, class Item>
 TWEENFALL_LANES void store(const Register& from, Item* to) {
   __builtin_memcpy(to, &from, sizeof from);
@@ -119,6 +166,11 @@ template <class Half, class Item>
 TWEENFALL_LANES void store(const Halves<Half>& from, Item* to) {
   store(from.low, to);
   store(from.high, to + sizeof(Half) / sizeof(Item));
+}
+
+template <class Part, int first, class Item>
+TWEENFALL_LANES void store(const LanesFrom<Part, first>& from, Item* to) {
+  store(from.of, to + first);
 }
 
 TWEENFALL_LANES Two root_of(const Two& a) {
@@ -134,6 +186,11 @@ TWEENFALL_LANES Eight root_of(const Eight& a) {
 template <class Half>
 TWEENFALL_LANES Halves<Half> root_of(const Halves<Half>& a) {
   return {root_of(a.low), root_of(a.high)};
+}
+
+template <class Part, int first>
+TWEENFALL_LANES LanesFrom<Part, first> root_of(const LanesFrom<Part, first>& a) {
+  return {root_of(a.of)};
 }
 
 /// A choice of lanes.
@@ -263,6 +320,12 @@ TWEENFALL_LANES void gather(const double* const* rows, Halves<Half>& x, Halves<H
   gather(rows + sizeof(Half) / sizeof(double), x.high, y.high, z.high, last.high);
 }
 
+template <class Part, int first>
+TWEENFALL_LANES void gather(const double* const* rows, LanesFrom<Part, first>& x, LanesFrom<Part, first>& y,
+                            LanesFrom<Part, first>& z, LanesFrom<Part, first>& last) {
+  gather(rows + first, x.of, y.of, z.of, last.of);
+}
+
 /// Back to rows of x, y, z and `last`.
 TWEENFALL_LANES void scatter(const Two& x, const Two& y, const Two& z, const Two& last, double* const* rows) {
   store(Two(__builtin_shufflevector(x, y, 0, 2)), rows[0]);
@@ -298,6 +361,12 @@ TWEENFALL_LANES void scatter(const Halves<Half>& x, const Halves<Half>& y, const
                              const Halves<Half>& last, double* const* rows) {
   scatter(x.low, y.low, z.low, last.low, rows);
   scatter(x.high, y.high, z.high, last.high, rows + sizeof(Half) / sizeof(double));
+}
+
+template <class Part, int first>
+TWEENFALL_LANES void scatter(const LanesFrom<Part, first>& x, const LanesFrom<Part, first>& y,
+                             const LanesFrom<Part, first>& z, const LanesFrom<Part, first>& last, double* const* rows) {
+  scatter(x.of, y.of, z.of, last.of, rows + first);
 }
 
 #pragma GCC diagnostic pop
