@@ -31,6 +31,13 @@ struct Spin {
 /// Source: Munthe-Kaas, High order Runge-Kutta methods on manifolds, Applied Numerical Mathematics 29, 1999.
 [[nodiscard]] Spin turned(const state::Body& body, const Spin& start, const Load& load, double dt);
 
+/// Angular acceleration of a body by Euler's equations, rad/s^2. All in the body's axes; `torque` in N m.
+[[nodiscard]] inline Vec3 rate_of_spin(const state::Body& body, const Vec3& torque, const Vec3& angular) {
+  const Mat3 &inertia = body.mass().inertia, &inverse = body.inverse_inertia();
+  if (!body.aligned()) return inverse * (torque - angular.cross(inertia * angular));
+  return inverse.diagonal().cwiseProduct(torque - angular.cross(inertia.diagonal().cwiseProduct(angular)));
+}
+
 /// An angular velocity, reduced so that its energy is at most `most` joules: inertia in world axes turns with its
 /// body, so that a spin which is kept through a large turn may gain energy.
 [[nodiscard]] Vec3 bounded_spin(const Mat3& inertia, double most, const Vec3& angular);

@@ -53,8 +53,20 @@ TWEENFALL_LANES bool any_bit(const Eight& numbers) {
   return any_bit(numbers, EightMasks{});
 }
 template <class Half>
+TWEENFALL_LANES auto bits_of(const Halves<Half>& numbers);
+TWEENFALL_LANES TwoMasks bits_of(const Two& numbers) {
+  return TwoMasks(numbers);
+}
+TWEENFALL_LANES FourMasks bits_of(const Four& numbers) {
+  return FourMasks(numbers);
+}
+template <class Half>
+TWEENFALL_LANES auto bits_of(const Halves<Half>& numbers) {
+  return bits_of(numbers.low) | bits_of(numbers.high);
+}
+template <class Half>
 TWEENFALL_LANES bool any_bit(const Halves<Half>& numbers) {
-  return any_bit(numbers.low) || any_bit(numbers.high);
+  return any_of(bits_of(numbers));
 }
 
 constexpr std::uint32_t rows_of_joint = FigureJoint::most_rows;
@@ -199,6 +211,13 @@ struct FigureFactors {
 
   // Factors
 
+  /// How impulses along the three axes at a point turn a body: by arm x axis.
+  TWEENFALL_LANES static void spins_of_point(const blocks::LanesSymmetric& m, const Vector& arm, Vector* spins) {
+    const Number xx = m.xx, xy = m.xy, xz = m.xz, yy = m.yy, yz = m.yz, zz = m.zz;
+    spins[0] = {xy * arm.z - xz * arm.y, yy * arm.z - yz * arm.y, yz * arm.z - zz * arm.y};
+    spins[1] = {xz * arm.x - xx * arm.z, yz * arm.x - xy * arm.z, zz * arm.x - xz * arm.z};
+    spins[2] = {xx * arm.y - xy * arm.x, xy * arm.y - yy * arm.x, xz * arm.y - yz * arm.x};
+  }
   TWEENFALL_LANES static Vector turn_of_point(const Vector& arm, std::uint32_t axis) {
     if (axis == 0) return {nothing(), arm.z, -arm.y};
     if (axis == 1) return {-arm.z, nothing(), arm.x};
@@ -266,61 +285,97 @@ struct FigureFactors {
     const FigureRow *rows = rows_of(figures, place), *others = rows_of(figures, later);
     const Number mass = figures.bodies[by_b ? own.b : own.a].inverse_mass;
     const bool opposite = by_b != later_by_b;
-    const std::uint32_t count = own.in_count, points = own.point ? 3 : 0;
-    for (std::uint32_t i = 0; i < other.in_count; ++i) {
+    const std::uint32_t count = own.in_count, points = own.point ? 3 : 0, later_points = other.point ? 3 : 0;
+    const auto put = [&](std::uint32_t i, std::uint32_t k, Number sum) __attribute__((always_inline)) {
+      if (opposite) sum = -sum;
+      if (i >= other.holds) sum = sum * others[other.slots[i]].in;
+      if (k >= own.holds) sum = sum * rows[own.slots[k]].in;
+      if (!first) sum = Number(block[i * count + k]) + sum;
+      sum.put(block[i * count + k]);
+    };
+    if (later_points != 0) {
+      const Vector arm = later_by_b ? other.arm_b : other.arm_a;
+      for (std::uint32_t k = 0; k < count; ++k) {
+        Vector sums = cross(spins[k], arm);
+        if (k < points) {
+          if (k == 0) sums.x = sums.x + mass;
+          if (k == 1) sums.y = sums.y + mass;
+          if (k == 2) sums.z = sums.z + mass;
+        } else if (const std::uint32_t slot = own.slots[k]; !own.turning[slot]) {
+          sums = sums + mass * Vector(by_b ? rows[slot].linear_b : rows[slot].linear_a);
+        }
+        put(0, k, sums.x);
+        put(1, k, sums.y);
+        put(2, k, sums.z);
+      }
+    }
+    for (std::uint32_t i = later_points; i < other.in_count; ++i) {
       const std::uint32_t row = other.slots[i];
-      const bool of_point = is_point(other, row), firm = row < other.holds;
-      const Vector turn = turn_of(other, others, row, later_by_b);
-      const auto put = [&](std::uint32_t k, Number sum) __attribute__((always_inline)) {
-        if (opposite) sum = -sum;
-        if (!firm) sum = sum * others[row].in;
-        if (!first) sum = Number(block[i * count + k]) + sum;
-        sum.put(block[i * count + k]);
-      };
+      const Vector turn = later_by_b ? others[row].turn_b : others[row].turn_a;
       if (points != 0) {
         Number sums[3] = {dot(turn, spins[0]), dot(turn, spins[1]), dot(turn, spins[2])};
-        if (of_point) {
-          sums[row] = sums[row] + mass;
-        } else if (!other.turning[row]) {
+        if (!other.turning[row]) {
           const Vector push = mass * Vector(later_by_b ? others[row].linear_b : others[row].linear_a);
           sums[0] = sums[0] + push.x;
           sums[1] = sums[1] + push.y;
           sums[2] = sums[2] + push.z;
         }
-        put(0, sums[0]);
-        put(1, sums[1]);
-        put(2, sums[2]);
+        put(i, 0, sums[0]);
+        put(i, 1, sums[1]);
+        put(i, 2, sums[2]);
       }
-      for (std::uint32_t k = points; k < count; ++k) {
-        const std::uint32_t slot = own.slots[k];
-        const Number sum = with_push(dot(turn, spins[k]), mass, other, others, row, later_by_b, own, rows, slot, by_b);
-        put(k, slot < own.holds ? sum : sum * rows[slot].in);
-      }
+      for (std::uint32_t k = points; k < count; ++k)
+        put(i, k, with_push(dot(turn, spins[k]), mass, other, others, row, later_by_b, own, rows, own.slots[k], by_b));
     }
+  }
+
+  /// The rows of a joint that hold a point: their effect on each other.
+  TWEENFALL_LANES static void fill_point(const FigureJoint& joint, FigureRow* rows, const Number& mass,
+                                         const Vector* spins_a, const Vector* spins_b, Lanes* diagonal) {
+    const Vector arm_a = joint.arm_a, arm_b = joint.arm_b;
+    const std::uint32_t count = joint.in_count;
+    const auto end = [&](std::uint32_t i, const Number& sum) __attribute__((always_inline)) {
+      // Lanes without a figure have no row.
+      FigureRow& row = rows[i];
+      const Number out = Number(1.0) - Number(row.in);
+      const Number inverse = row.in * (sum + mass) + out;
+      inverse.put(row.inverse);
+      (row.in * (inverse + Number(row.reserve) * inverse + row.compliance) + out).put(diagonal[i * count + i]);
+    };
+    const Vector first = cross(spins_a[0], arm_a) + cross(spins_b[0], arm_b);
+    end(0, first.x);
+    first.y.put(diagonal[count]);
+    first.z.put(diagonal[2 * count]);
+    const Vector second = cross(spins_a[1], arm_a) + cross(spins_b[1], arm_b);
+    end(1, second.y);
+    second.z.put(diagonal[2 * count + 1]);
+    end(2, (cross(spins_a[2], arm_a) + cross(spins_b[2], arm_b)).z);
   }
 
   TWEENFALL_LANES static void fill(Figures& figures, std::uint32_t place) {
     FigureJoint& joint = figures.joints[place];
     FigureRow* rows = rows_of(figures, place);
     const FigureBody &a = figures.bodies[joint.a], &b = figures.bodies[joint.b];
-    const std::uint32_t count = joint.in_count;
-    Vector turns_a[rows_of_joint], turns_b[rows_of_joint], spins_a[rows_of_joint], spins_b[rows_of_joint];
-    for (std::uint32_t i = 0; i < count; ++i) {
-      turns_a[i] = turn_of(joint, rows, joint.slots[i], false);
-      turns_b[i] = turn_of(joint, rows, joint.slots[i], true);
-      spins_a[i] = a.inverse_inertia * turns_a[i];
-      spins_b[i] = b.inverse_inertia * turns_b[i];
-    }
+    const std::uint32_t count = joint.in_count, points = joint.point ? 3 : 0;
+    Vector spins_a[rows_of_joint], spins_b[rows_of_joint];
     Lanes* diagonal = figures.blocks + joint.diagonal;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    if (points != 0) {
+      spins_of_point(a.inverse_inertia, joint.arm_a, spins_a);
+      spins_of_point(b.inverse_inertia, joint.arm_b, spins_b);
+      fill_point(joint, rows, Number(a.inverse_mass) + b.inverse_mass, spins_a, spins_b, diagonal);
+    }
+    for (std::uint32_t i = points; i < count; ++i) {
       FigureRow& row = rows[joint.slots[i]];
+      const Vector turn_a = row.turn_a, turn_b = row.turn_b;
+      spins_a[i] = a.inverse_inertia * turn_a;
+      spins_b[i] = b.inverse_inertia * turn_b;
       for (std::uint32_t k = 0; k <= i; ++k) {
-        Number sum = dot(turns_a[i], spins_a[k]) + dot(turns_b[i], spins_b[k]);
+        Number sum = dot(turn_a, spins_a[k]) + dot(turn_b, spins_b[k]);
         sum = with_push(sum, a.inverse_mass, joint, rows, joint.slots[i], false, joint, rows, joint.slots[k], false);
         sum = with_push(sum, b.inverse_mass, joint, rows, joint.slots[i], true, joint, rows, joint.slots[k], true);
         if (k < i) {
-          if (joint.slots[i] >= joint.holds) sum = sum * row.in;
-          if (joint.slots[k] >= joint.holds) sum = sum * rows[joint.slots[k]].in;
+          if (i >= joint.holds) sum = sum * row.in;
+          if (k >= joint.holds) sum = sum * rows[joint.slots[k]].in;
           sum.put(diagonal[i * count + k]);
           continue;
         }
@@ -354,6 +409,7 @@ struct FigureFactors {
     const FigureRow* rows = rows_of(figures, place);
     const std::uint32_t count = known != 0 ? known : joint.in_count;
     Lanes* block = figures.blocks + joint.diagonal;
+    Number redundant = nothing();
     for (std::uint32_t i = 0; i < count; ++i)
       for (std::uint32_t k = 0; k <= i; ++k) {
         Number sum = block[i * count + k];
@@ -366,8 +422,9 @@ struct FigureFactors {
         const Number root_of_sum = root(select(news, sum, Number(1.0)));
         const Number its = select(news, Number(1.0) / root_of_sum, nothing());
         its.put(block[i * count + i]);
-        figures.silent = figures.silent || any(Number(1.0) - one_if(its > nothing()));
+        redundant = greater(redundant, Number(1.0) - one_if(its > nothing()));
       }
+    figures.silent = figures.silent || any(redundant);
   }
 
   /// Eliminates a joint: subtracts its effect from the later ones. @param known  rows of the joint, or 0 for any

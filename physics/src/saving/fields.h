@@ -125,12 +125,12 @@ template <Is<Makeup> T, class Visit>
 void each_field(T& makeup, const Visit& visit) {
   auto& [shape, mass, inverse_inertia, radius, roundness, linear_damping, angular_damping, friction, restitution,
          rolling_friction, spinning_friction, friction_combine, restitution_combine, sensor, weighed, spherical,
-         slender, turned] = makeup;
+         aligned, slender, turned] = makeup;
   visit(linear_damping, angular_damping, mass.mass, friction, restitution, rolling_friction, spinning_friction,
         friction_combine, restitution_combine, sensor, shape);
   visit.rarely(weighed);
   if (weighed) visit(mass.center, mass.inertia);  // otherwise they follow from the shape
-  follows_from_others(inverse_inertia, radius, roundness, spherical, slender, turned);
+  follows_from_others(inverse_inertia, radius, roundness, spherical, aligned, slender, turned);
 }
 
 template <Is<Extra> T, class Visit>

@@ -11,6 +11,7 @@ Mat3 Body::world_inertia(const Quat& rotation) const {
 Mat3 Body::world_inverse_inertia(const Quat& rotation) const {
   if (spherical()) return inverse_inertia();
   const Mat3 axes = rotation.toRotationMatrix();
+  if (aligned()) return axes * inverse_inertia().diagonal().asDiagonal() * axes.transpose();
   return axes * inverse_inertia() * axes.transpose();
 }
 

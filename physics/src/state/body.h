@@ -27,6 +27,7 @@ struct Makeup {
   bool sensor = false;
   bool weighed = false;    ///< its mass properties were given, not those of an even solid
   bool spherical = false;  ///< the same moment about every axis: spin feels no gyroscopic torque
+  bool aligned = false;    ///< the node's axes are principal ones
   bool slender = false;    ///< like a rod: small errors of where it points would change the energy of its spin much
   bool turned = false;     ///< what it rolls with depends on where it is touched; also for a compound
 };
@@ -84,6 +85,7 @@ struct Body {
   [[nodiscard]] const Mat3& inverse_inertia() const { return makeup->inverse_inertia; }
   [[nodiscard]] double radius() const { return makeup->radius; }
   [[nodiscard]] bool spherical() const { return makeup->spherical; }
+  [[nodiscard]] bool aligned() const { return makeup->aligned; }
   [[nodiscard]] bool slender() const { return makeup->slender; }
   /// A ball around its center of mass: no contact without friction can turn it.
   [[nodiscard]] bool round() const {

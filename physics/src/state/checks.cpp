@@ -197,6 +197,8 @@ void give_mass(Makeup& body, bool immovable, const std::optional<double>& given,
       body.mass.inertia = first * Mat3::Identity();
       body.inverse_inertia = 1 / first * Mat3::Identity();
     }
+    body.aligned = body.mass.inertia == Mat3(body.mass.inertia.diagonal().asDiagonal()) &&
+                   body.inverse_inertia == Mat3(body.inverse_inertia.diagonal().asDiagonal());
   }
   if (const auto* sphere = std::get_if<Sphere>(&solid)) body.roundness = sphere->radius;
   if (const auto* capsule = std::get_if<Capsule>(&solid)) body.roundness = capsule->radius;

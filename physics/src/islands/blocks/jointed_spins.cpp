@@ -16,10 +16,7 @@ constexpr double turn_of_a_piece = 0.15;
 
 /// By Euler's equations and the classic Runge-Kutta method.
 Vec3 JointedSpins::after_half(const Spin& spin, const state::Body& body, const Vec3& start) {
-  const Mat3& inertia = body.mass().inertia;
-  const auto rate = [&](const Vec3& at) -> Vec3 {
-    return body.inverse_inertia() * (spin.torque - at.cross(inertia * at));
-  };
+  const auto rate = [&](const Vec3& at) { return forces::rate_of_spin(body, spin.torque, at); };
   const double turn = start.norm() * spin.half;
   const int pieces = std::max(1, static_cast<int>(std::ceil(turn / turn_of_a_piece)));
   const double h = spin.half / pieces;

@@ -23,9 +23,7 @@ Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec
   const Quat back = rotation.conjugate();
   const Vec3 spin = back * angular;
   const Vec3 turning = back * torque;
-  const auto rate = [&](const Vec3& at) -> Vec3 {
-    return body.inverse_inertia() * (turning - at.cross(body.mass().inertia * at));
-  };
+  const auto rate = [&](const Vec3& at) { return forces::rate_of_spin(body, turning, at); };
   Vec3 next = spin + h * rate(spin + 0.5 * h * rate(spin));
   if (torque == Vec3::Zero())
     next = forces::bounded_spin(body.mass().inertia, 0.5 * spin.dot(body.mass().inertia * spin), next);
