@@ -35,16 +35,26 @@ double nearness_of_impact(const state::Body& a, const state::Body& b) {
   return std::max(collision::hair, std::min(of_near_enough * near_enough, of_size * std::min(a.radius(), b.radius())));
 }
 
-/// Whether two bodies lay in each other when they met, deeper than what moves by itself gets within a step, and have
+/// Whether two bodies lay in each other when they met, deeper than their motion brings them in a step of `dt`, and have
 /// not been taken apart since.
-bool lies_within(const ContactConstraint& constraint, const state::ContactMemory* memory, double radius) {
+bool lies_within(const ContactConstraint& constraint, const state::ContactMemory* memory, const state::Body& a,
+                 const state::Body& b, double dt) {
   constexpr double hardly = 0.05;  // of what is near enough
-  double depth = 0;
-  for (int i = 0; i < constraint.count; ++i)
-    depth = std::max(depth, -constraint.points[static_cast<std::size_t>(i)].start_gap);
-  const double near = std::min(near_enough, near_enough_of_small * radius);
-  if (constraint.began) return depth > near && constraint.impact_time == 0;
-  return memory->is(state::ContactMemory::within) && depth > hardly * near;
+  const double near = std::min(near_enough, near_enough_of_small * std::min(a.radius(), b.radius()));
+  if (constraint.began ? constraint.impact_time != 0 : !memory->is(state::ContactMemory::within)) return false;
+  for (int i = 0; i < constraint.count; ++i) {
+    const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+    const double depth = -point.start_gap;
+    if (!constraint.began) {
+      if (depth > hardly * near) return true;
+      continue;
+    }
+    if (!(depth > near)) continue;
+    const Vec3 closing = (a.twist.linear + a.twist.angular.cross(point.start_arm_a)) -
+                         (b.twist.linear + b.twist.angular.cross(point.start_arm_b));
+    if (depth > closing.norm() * dt) return true;
+  }
+  return false;
 }
 
 /// The parts of a compound; empty for any other body, which is a single part.
@@ -227,11 +237,11 @@ void World::Implementation::find_contact(const contacts::PairInContact& pair, co
     part.contacts.drop_last();
     return;
   }
-  finish_contact(constraint, memory);
+  finish_contact(constraint, memory, dt);
 }
 
-void World::Implementation::finish_contact(contacts::ContactConstraint& constraint,
-                                           const state::ContactMemory* memory) const {
+void World::Implementation::finish_contact(contacts::ContactConstraint& constraint, const state::ContactMemory* memory,
+                                           double dt) const {
   const state::Body& a = bodies[constraint.a];
   const state::Body& b = bodies[constraint.b];
   constraint.friction = contacts::combined_friction(a.makeup->friction, a.makeup->friction_combine, b.makeup->friction,
@@ -241,7 +251,7 @@ void World::Implementation::finish_contact(contacts::ContactConstraint& constrai
   constraint.rolling_friction = std::max(a.makeup->rolling_friction, b.makeup->rolling_friction);
   constraint.spinning_friction = std::max(a.makeup->spinning_friction, b.makeup->spinning_friction);
   constraint.began = !(memory && memory->is(state::ContactMemory::touching));
-  constraint.within = contacts::lies_within(constraint, memory, std::min(a.radius(), b.radius()));
+  constraint.within = contacts::lies_within(constraint, memory, a, b, dt);
   if (memory)
     contacts::inherit(constraint, memories, *memory, stands[constraint.b], 0.05 * std::min(a.radius(), b.radius()));
 }

@@ -238,7 +238,8 @@ void World::Implementation::find_contacts_with_surface(const contacts::PairInCon
       its_contacts.number(memories, known_places);
     }
     for (contacts::ContactConstraint& contact : its_contacts.contacts()) {
-      finish_contact(contact, contact.memory != state::ContactMemories::nowhere ? &memories[contact.memory] : nullptr);
+      finish_contact(contact, contact.memory != state::ContactMemories::nowhere ? &memories[contact.memory] : nullptr,
+                     dt);
       part.contacts.add() = contact;
     }
   };

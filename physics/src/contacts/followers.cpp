@@ -163,14 +163,15 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
     }
   });
   // For the positions of the bodies at the start of the step.
-  const auto meet_at_start = [this](contacts::ContactConstraint& contact, const Manifold& manifold) {
+  const auto meet_at_start = [this, dt](contacts::ContactConstraint& contact, const Manifold& manifold) {
     contact.manifold = manifold;
     contact.kept = false;  // the memory has to find this one, which has more points
     const state::Body &a = bodies[contact.a], &b = bodies[contact.b];
     contacts::adopt(contact, passages[contact.a], {a.center, a.motion.pose.rotation}, passages[contact.b],
                     {b.center, b.motion.pose.rotation});
     if (contact.count == 0 || !contact.manifold.normal.allFinite()) return false;
-    finish_contact(contact, contact.memory != state::ContactMemories::nowhere ? &memories[contact.memory] : nullptr);
+    finish_contact(contact, contact.memory != state::ContactMemories::nowhere ? &memories[contact.memory] : nullptr,
+                   dt);
     return true;
   };
   const auto take = [&](contacts::Followers& pair) {

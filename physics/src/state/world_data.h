@@ -68,7 +68,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   /// Adds to `beyond` what a body that was struck hard may meet, but would not have met without the blow.
   void find_beyond(std::uint32_t index, std::span<contacts::FoundPart> parts, double dt);
   /// Fills in what a contact takes from its bodies and from the step before.
-  void finish_contact(contacts::ContactConstraint& constraint, const state::ContactMemory* memory) const;
+  void finish_contact(contacts::ContactConstraint& constraint, const state::ContactMemory* memory, double dt) const;
   /// Contacts of a body, or of all its parts, with a body that is a mesh or a height field.
   void find_contacts_with_surface(const contacts::PairInContact& pair, contacts::PairMemories known, double dt,
                                   contacts::FoundPart& part) const;
