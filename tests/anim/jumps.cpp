@@ -121,3 +121,83 @@ TEST_CASE("jumps of a weight before it was changed are found, and none of what i
   CHECK(player.first_weight_jump(0, 1) == 0.5);
   CHECK(std::isinf(player.first_weight_jump(0.5, 9)));  // the key at 3 s is gone
 }
+
+TEST_CASE("what a change to a play fires is no jump, whatever the clip's events are called") {
+  Clip clip{.name = "clip", .duration = 4, .loop = {LoopMode::repeat, 0}};
+  clip.tracks.push_back({"ball", "position.x",
+                         keyed_curve<double>({{.time = 0, .value = 0, .ease = Ease::hold()},
+                                              {.time = 3, .value = 1, .ease = Ease::hold()},
+                                              {.time = 4, .value = 0}})});
+  for (const std::string name : {"step", "0", "7"}) {
+    CAPTURE(name);
+    clip.events = {{.from = 0.5, .to = 0.5, .name = name, .data = {}},
+                   {.from = 1, .to = 2.9, .name = name, .data = {}}};
+    Animation animation(only_a_ball(), {clip}, {{.clip = 0}});
+    animation =
+        animation.with_change({.time = 0.2, .play = "clip", .action = playing::Seek{.time = 2, .events = true}});
+    animation = animation.with_change({.time = 0.3, .play = "clip", .action = playing::Seek{.time = 0.6}});
+    const JumpSearch search(animation);
+    CHECK(search.first(animation, 0, 9) == doctest::Approx(2.7));
+    CHECK(search.first_behind(animation, 0, 9) == doctest::Approx(2.7));
+  }
+}
+
+TEST_CASE("jumps of the pose that shows below a fading seek are found, until it has faded") {
+  Clip clip{.name = "clip", .duration = 9};
+  clip.tracks.push_back({"ball", "position.x",
+                         keyed_curve<double>({{.time = 0, .value = 0, .ease = Ease::hold()},
+                                              {.time = 1, .value = 1, .ease = Ease::hold()},
+                                              {.time = 1.6, .value = 2, .ease = Ease::hold()},
+                                              {.time = 7, .value = 3, .ease = Ease::hold()}})});
+  Clip endless = clip_by(formula_of("step(1, t) + step(1.6, t) + step(7, t)"), "position.x", endless_clip);
+  for (const Clip& each : {clip, endless}) {
+    const Animation plain(only_a_ball(), {each}, {{.clip = 0}});
+    const Animation fading =
+        plain.with_change({.time = 0.75, .play = "clip", .action = playing::Seek{.time = 6.5, .fade = 0.7}});
+    const JumpSearch search(fading);
+    for (const bool behind : {false, true}) {
+      const auto first = [&](double from) {
+        return behind ? search.first_behind(fading, from, 9) : search.first(fading, from, 9);
+      };
+      CHECK(near(first(0.1), 1, 1e-12));   // what was shown comes to its key
+      CHECK(near(first(1), 1.25, 1e-12));  // what is shown to its own
+      CHECK(std::isinf(first(1.25)));      // at 1.6 s the first is gone
+    }
+    // A change meanwhile leaves both as they are.
+    const Animation faster =
+        fading.with_change({.time = 0.9, .play = "clip", .action = playing::SetSpeed{.speed = {{0, 4}}}});
+    const JumpSearch again(faster);
+    CHECK(near(again.first(faster, 0.1, 9), 0.9 + 0.35 / 4, 1e-12));
+    CHECK(near(again.first(faster, 0.99, 9), 1, 1e-12));
+    CHECK(std::isinf(again.first(faster, 1, 9)));
+    // And again: three clocks run.
+    const Animation thrice =
+        fading.with_change({.time = 0.95, .play = "clip", .action = playing::Seek{.time = 0.9, .fade = 0.2}});
+    const JumpSearch last(thrice);
+    CHECK(near(last.first(thrice, 0.1, 9), 1, 1e-12));
+    CHECK(near(last.first(thrice, 1, 9), 1.05, 1e-12));
+    CHECK(near(last.first(thrice, 1.05, 9), 1.65, 1e-12));
+  }
+}
+
+TEST_CASE("the jumps of a play are found as they were, whatever is asked of it later") {
+  Clip clip{.name = "clip", .duration = 1, .loop = {LoopMode::repeat, 0}};
+  clip.tracks.push_back(
+      {"ball", "position.x",
+       keyed_curve<double>({{.time = 0, .value = 0, .ease = Ease::linear()}, {.time = 1, .value = 1}})});
+  const Animation plain(only_a_ball(), {clip}, {{.clip = 0, .at = 0.25}});
+  const Animation changed =
+      plain
+          .with_change(
+              {.time = 2.5,
+               .play = "clip",
+               .action = playing::Start{.clip = "clip", .from = 0.5, .to = 0.75, .loop = Loop{LoopMode::repeat, 0}}})
+          .with_change({.time = 2.9, .play = "clip", .action = playing::Stop{}})
+          .with_change({.time = 4,
+                        .play = "clip",
+                        .action = playing::Start{.clip = "clip", .loop = Loop{LoopMode::pingpong, 0}}});
+  const JumpSearch search(changed);
+  std::vector<double> seen;
+  for (double time = 0; (time = search.first(changed, time, 9)) < 9;) seen.push_back(time);
+  CHECK(all_near(seen, {0.25, 1.25, 2.25, 2.5, 2.75, 2.9, 4}));
+}

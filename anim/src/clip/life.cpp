@@ -246,13 +246,21 @@ ClipClock Course::clock(double time, Side side) const noexcept {
 
 }  // namespace clips
 
-Player::Life::Life(const Play& played, const Clip& clip, double start)
+Player::Life::Life(const Play& played, const Clip& clip, double start, const Life* previous)
     : Course(clips::rounds_of(played, clip), played.speed, start, played.offset),
       play(played),
       given(std::make_shared<const Play>(played)),
       weight_from(start) {
   rise = clips::ramp(play.fade_in, 0, 1);
   fall = clips::ramp(play.fade_out, 1, 0);
+  const PlaySection own{rounds.from, rounds.from + rounds.length, rounds.mode};
+  std::vector<PlaySection> all = previous ? *previous->sections : std::vector<PlaySection>();
+  const auto known = std::ranges::find(all, own);
+  section = static_cast<std::size_t>(known - all.begin());
+  if (known == all.end()) all.push_back(own);
+  sections = previous && all.size() == previous->sections->size()
+                 ? previous->sections
+                 : std::make_shared<const std::vector<PlaySection>>(std::move(all));
 }
 
 Player::Life::~Life() {

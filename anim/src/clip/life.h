@@ -117,7 +117,7 @@ class Course {
 }  // namespace clips
 
 struct Player::Life : clips::Course {
-  Life(const Play& played, const Clip& clip, double start);
+  Life(const Play& played, const Clip& clip, double start, const Life* previous = nullptr);
   Life(const Life&) = default;
   Life& operator=(const Life&) = delete;
   ~Life();
@@ -145,7 +145,9 @@ struct Player::Life : clips::Course {
   bool fades_in = true;
   std::optional<Curve<double>> rise{}, fall{};
   double stopped = clips::infinity;
-  std::vector<FiredEvent> told{};  ///< events at `since`
+  std::vector<FiredEvent> told{};                              ///< events at `since`
+  std::shared_ptr<const std::vector<PlaySection>> sections{};  ///< its own, and those of the lives before it
+  std::size_t section = 0;                                     ///< its own
   std::shared_ptr<Life> before{};
   const Life* under = nullptr;  ///< an earlier one, whose clock runs on while this one fades in over it
   double under_from = 0, under_for = 0;
@@ -153,6 +155,23 @@ struct Player::Life : clips::Course {
   /// The weight of this one over `under`.
   [[nodiscard]] Sample<double> over_under(double time) const noexcept;
 };
+
+/// Calls `visit` with each life whose clock runs in [from, to], and from when to when it does in all.
+template <class Visit>
+void Player::visit_clocks(double from, double to, const Visit& visit) const {
+  double next = clips::infinity;  // when the next life took over
+  for (const Life* life = latest_.get(); life; life = life->before.get()) {
+    double begin = life->since, end = next;
+    for (const Life* one = life; one && begin <= std::min(end, to) && end >= from; one = one->under) {
+      visit(*one, begin, end);
+      // The one below runs on until this one has wholly faded in over it.
+      begin = std::max(begin, one->under_from);
+      end = std::min(end, one->under_from + one->under_for);
+    }
+    if (life->since < from) break;
+    next = life->since;
+  }
+}
 
 namespace clips {
 

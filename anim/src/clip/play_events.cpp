@@ -178,50 +178,52 @@ void Player::visit_events(const Clip& clip, double from, double to, bool from_st
     if (inside) goes_on = visit(std::move(event));
     return goes_on;
   };
-  const auto tell_all = [&](std::vector<FiredEvent> events) {
-    for (FiredEvent& event : events)
-      if (!tell(std::move(event))) return;
-  };
-  std::vector<FiredEvent> fired;
   for (std::size_t i = lives.size(); i-- > 0 && goes_on;) {
     const Life& life = *lives[i];
-    const double last = i > 0 ? lives[i - 1]->since : clips::infinity;
-    const std::size_t index = life.play.clip;
-    const clips::Rounds& rounds = life.rounds;
-    tell_all(life.told);
-    if (!goes_on || clip.events.empty()) continue;
-    const auto tell_open = [&](double phase, double time, FiredEvent::Kind kind) {
-      for (const clips::OpenInterval& open : clips::open_intervals(rounds, clip, phase)) {
-        const ClipEvent& event = clip.events[open.event];
-        if (!tell({time, event.name, event.data, index, kind})) return;
-      }
-    };
-    life.visit_stretches(from, to, std::min(last, life.stopped), [&](const clips::Stretch& stretch) {
-      // Changed or stopped at that instant: the next life begins to move, or none.
-      if (stretch.first && stretch.from >= std::min(last, life.stopped)) return true;
-      if (stretch.first && life.over() > stretch.from)
-        tell_open(stretch.phase_from, stretch.from, FiredEvent::Kind::begin);
-      const clips::StretchWalk walk(rounds, clip, index, stretch);
-      const auto phase_at = [&](double time) {
-        return time <= stretch.from ? stretch.phase_from : time >= stretch.to ? stretch.phase_to : life.phase(time);
-      };
-      const double a = phase_at(from), b = phase_at(to);
-      const clips::Span span = clips::rounds_between(rounds, std::min(a, b), std::max(a, b));
-      for (double passed = 0; goes_on && passed <= span.last - span.first; ++passed) {
-        fired.clear();
-        walk.tell_round(
-            stretch.direction < 0 ? span.last - passed : span.first + passed,
-            [&](double phase) { return life.time_of(phase, stretch); }, fired);
-        std::ranges::stable_sort(fired, {}, &FiredEvent::time);
-        tell_all(std::move(fired));
-      }
-      return goes_on;
-    });
-    // Intervals that are open when the life is over end then.
-    const double over = life.over();
-    if (goes_on && over > life.since && over <= last && over >= from && over <= to && life.has_moved(over))
-      tell_open(life.held_phase(over), over, FiredEvent::Kind::end);
+    for (const FiredEvent& event : life.told)
+      if (!tell(FiredEvent(event))) return;
+    if (!clip.events.empty()) visit_run(life, clip, from, to, i > 0 ? lives[i - 1]->since : clips::infinity, tell);
   }
+}
+
+/// What a life's clock meets as it runs, until `last`. @param tell  returns false to end
+template <class Tell>
+void Player::visit_run(const Life& life, const Clip& clip, double from, double to, double last, const Tell& tell) {
+  bool goes_on = true;
+  std::vector<FiredEvent> fired;
+  const std::size_t index = life.play.clip;
+  const clips::Rounds& rounds = life.rounds;
+  const auto tell_open = [&](double phase, double time, FiredEvent::Kind kind) {
+    for (const clips::OpenInterval& open : clips::open_intervals(rounds, clip, phase)) {
+      const ClipEvent& event = clip.events[open.event];
+      goes_on = goes_on && tell(FiredEvent{time, event.name, event.data, index, kind});
+    }
+  };
+  life.visit_stretches(from, to, std::min(last, life.stopped), [&](const clips::Stretch& stretch) {
+    // Changed or stopped at that instant: the next life begins to move, or none.
+    if (stretch.first && stretch.from >= std::min(last, life.stopped)) return true;
+    if (stretch.first && life.over() > stretch.from)
+      tell_open(stretch.phase_from, stretch.from, FiredEvent::Kind::begin);
+    const clips::StretchWalk walk(rounds, clip, index, stretch);
+    const auto phase_at = [&](double time) {
+      return time <= stretch.from ? stretch.phase_from : time >= stretch.to ? stretch.phase_to : life.phase(time);
+    };
+    const double a = phase_at(from), b = phase_at(to);
+    const clips::Span span = clips::rounds_between(rounds, std::min(a, b), std::max(a, b));
+    for (double passed = 0; goes_on && passed <= span.last - span.first; ++passed) {
+      fired.clear();
+      walk.tell_round(
+          stretch.direction < 0 ? span.last - passed : span.first + passed,
+          [&](double phase) { return life.time_of(phase, stretch); }, fired);
+      std::ranges::stable_sort(fired, {}, &FiredEvent::time);
+      for (FiredEvent& event : fired) goes_on = goes_on && tell(std::move(event));
+    }
+    return goes_on;
+  });
+  // Intervals that are open when the life is over end then.
+  const double over = life.over();
+  if (goes_on && over > life.since && over <= last && over >= from && over <= to && life.has_moved(over))
+    tell_open(life.held_phase(over), over, FiredEvent::Kind::end);
 }
 
 std::vector<FiredEvent> Player::events_between(const Clip& clip, double from, double to, bool from_start) const {
@@ -272,6 +274,34 @@ std::optional<FiredEvent> Player::first_event(const Clip& clip, double from, dou
     return false;
   });
   return first;
+}
+
+template <class ClipOf>
+std::optional<PlayMeeting> Player::first_met(double from, double to, const ClipOf& clip_of) const {
+  std::optional<PlayMeeting> first;
+  visit_clocks(from, to, [&](const Life& life, double begin, double end) {
+    const Clip& clip = clip_of(life);
+    if (clip.events.empty()) return;
+    visit_run(life, clip, from, to, end, [&](FiredEvent&& moment) {
+      if (!(moment.time > from && moment.time >= begin)) return true;
+      if (moment.time <= std::min(to, end) && !(first && first->moment.time <= moment.time))
+        first = PlayMeeting{std::move(moment), &clip, &life};
+      return false;
+    });
+  });
+  return first;
+}
+
+std::optional<PlayMeeting> Player::first_meeting(const Clip& clip, double from, double to) const {
+  return first_met(from, to, [&](const Life&) -> const Clip& { return clip; });
+}
+
+std::optional<PlayMeeting> Player::first_meeting(std::span<const Clip> clips, double from, double to) const {
+  return first_met(from, to, [&](const Life& life) -> const Clip& { return clips[life.section]; });
+}
+
+std::span<const PlaySection> Player::sections() const noexcept {
+  return *latest_->sections;
 }
 
 std::vector<FiredEvent> events_between(const Play& play, const Clip& clip, double from, double to, bool from_start) {

@@ -183,6 +183,34 @@ double Player::first_weight_jump(double from, double to) const noexcept {
   return first;
 }
 
+double Player::first_begin_or_end(double from, double to) const noexcept {
+  double first = clips::infinity;
+  double last = clips::infinity;  // when the next life took over
+  for (const Life* life = latest_.get(); life; life = life->before.get()) {
+    const auto meet = [&](double time) {
+      if (time > from && time <= to && time >= life->since && time < last) first = std::min(first, time);
+    };
+    meet(life->at);
+    if (life->is_gone(life->over(), Side::out)) meet(life->over());
+    if (life->since <= from) break;
+    last = life->since;
+  }
+  return first;
+}
+
+std::pair<double, double> Player::reach(double from, double to) const noexcept {
+  double low = clips::infinity, high = 0;
+  visit_clocks(from, to, [&](const Life& life, double begin, double end) {
+    begin = std::max(begin, from);
+    end = std::min(end, to);
+    const double first = life.clock(begin, Side::out).time, last = life.clock(end, Side::in).time;
+    const double way = life.speed.greatest() * (end - begin);
+    low = std::min({low, first - way, last - way});
+    high = std::max({high, first + way, last + way});
+  });
+  return {std::max(low, 0.0), high};
+}
+
 Player Player::changed(const Clip& clip, double time, const PlayAction& action) const {
   const Life& old = *latest_;
   if (!std::isfinite(time) || time < old.since)
@@ -191,7 +219,7 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
     Play play = start.clip.empty() ? *old.given : play_of(start, old.play.clip);
     play.at = time;
     play.name = old.play.name;
-    return std::make_shared<Life>(clips::valid(play, clip), clip, time);
+    return std::make_shared<Life>(clips::valid(play, clip), clip, time, &old);
   };
   const auto* start = std::get_if<playing::Start>(&action);
   const std::shared_ptr<Life> next = start ? started_anew(*start) : std::make_shared<Life>(old);
@@ -314,6 +342,33 @@ double RunningPlay::first_weight_jump(double from, double to) const noexcept {
   if (alone) return clips::infinity;
   const double jump = player->first_weight_jump(own_time(from), own_time(to));
   return std::isfinite(jump) ? stage_time(jump) : jump;
+}
+
+double RunningPlay::first_begin_or_end(double from, double to) const noexcept {
+  const double time = player->first_begin_or_end(own_time(from), own_time(to));
+  return std::isfinite(time) ? stage_time(time) : time;
+}
+
+template <class Clips>
+std::optional<PlayMeeting> RunningPlay::first_met(const Clips& clips, double from, double to) const {
+  if (lead == 0 && clock_override == ClockOverride{}) return player->first_meeting(clips, from, to);
+  // As for events: a little around the stretch is searched too.
+  const double a = own_time(from), b = own_time(to), around = 1e-12 * (1 + std::abs(a) + std::abs(b));
+  double told = a - around;
+  while (std::optional<PlayMeeting> met = player->first_meeting(clips, told, b + around)) {
+    told = met->moment.time;
+    met->moment.time = stage_time(told);
+    if (met->moment.time > to) break;
+    if (met->moment.time > from) return met;
+  }
+  return {};
+}
+
+std::optional<PlayMeeting> RunningPlay::first_meeting(const Clip& moments, double from, double to) const {
+  return first_met(moments, from, to);
+}
+std::optional<PlayMeeting> RunningPlay::first_meeting(std::span<const Clip> clips, double from, double to) const {
+  return first_met(clips, from, to);
 }
 
 std::optional<FiredEvent> RunningPlay::first_event(const Clip& events, double from, double to, bool from_start,

@@ -292,6 +292,8 @@ TEST_CASE("a spring over a graph whose parameter jumps, or a play that is sought
   const double hz = 1.7, damping = 0.35, instant = 0.41234, w = 2 * pi * hz;
   std::vector<Clip> clips(1);
   clips[0] = {.name = "way", .duration = 9};
+  clips[0].events = {{.from = 2, .to = 2, .name = "passed", .data = {}},
+                     {.from = 5.5, .to = 8, .name = "on", .data = {}}};
   clips[0].tracks.push_back({"hips", "position",
                              keyed_curve<Vec3>({{.time = 0, .value = {0, 1, 0}, .ease = Ease::hold()},
                                                 {.time = 5, .value = {0.5, 1, 0}, .ease = Ease::hold()}})});
@@ -308,8 +310,10 @@ TEST_CASE("a spring over a graph whose parameter jumps, or a play that is sought
   const Animation by_graph = plays.with_graphs({below, springy});
   const Animation by_seek =
       plays.with_graphs({springy}).with_change({.time = instant, .play = "way", .action = playing::Seek{.time = 6}});
+  const Animation telling = plays.with_graphs({springy}).with_change(
+      {.time = instant, .play = "way", .action = playing::Seek{.time = 6, .events = true}});
   std::vector<Motion> pose(figures()->size());
-  for (const Animation& animation : {by_graph, by_seek})
+  for (const Animation& animation : {by_graph, by_seek, telling})
     for (const double time : {0.2, 0.4123, 0.42, 0.6, 1.0, 1.77, 3.3}) {
       CAPTURE(time);
       animation.sample(time, pose);

@@ -36,9 +36,9 @@ class JumpSearch {
   [[nodiscard]] double first_of(const Animation& animation, double from, double to, const ClockOverride& clock,
                                 const Told& told) const;
 
-  std::vector<Clip> clips_;    // for each clip one without tracks, whose events are its jumps
-  std::vector<Clip> seams_;    // by player: the same of its loop
-  std::vector<char> follows_;  // by clip: whether any of its tracks counts
+  std::vector<Clip> clips_;               // for each clip one without tracks, whose events are its jumps
+  std::vector<std::vector<Clip>> seams_;  // by player, for each of its sections: the same of its loop
+  std::vector<char> follows_;             // by clip: whether any of its tracks counts
   std::vector<std::shared_ptr<const clips::FormulaJumps>> formulas_;  // by clip; null where none leaps without end
 };
 

@@ -9,8 +9,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -31,7 +33,7 @@ using PlayKeys = std::vector<PlayKey>;
 namespace playing {
 /// The play begins now; if it runs already, it begins again.
 struct Start {
-  std::string clip{};  ///< by its name; empty: restarts the play as it was given, and nothing else is read
+  std::string clip{};  ///< its name; empty: the play as it was given, nothing else is read; or a new play of its name
   double from = 0;     ///< this and the following as in `Play`
   std::optional<double> to{};
   double offset = 0;
@@ -114,6 +116,25 @@ struct PlayVoices {
   std::size_t count = 0;
 };
 
+namespace clips {
+class Course;
+}
+
+/// What a play goes through, round by round.
+struct PlaySection {
+  double from = 0, to = 0;  ///< clip seconds
+  LoopMode mode = LoopMode::once;
+
+  bool operator==(const PlaySection&) const = default;
+};
+
+/// A moment of a clip that a clock meets as it runs.
+struct PlayMeeting {
+  FiredEvent moment;
+  const Clip* clip = nullptr;            ///< the one that has it
+  const clips::Course* clock = nullptr;  ///< private to the library
+};
+
 class Player {
  public:
   // A move is a copy: that is just as cheap, and the object moved from stays valid.
@@ -149,12 +170,23 @@ class Player {
   /// First time in (from, to] at which the weight of the current play jumps at one of its keys; infinity for
   /// none.
   [[nodiscard]] double first_weight_jump(double from, double to) const noexcept;
+  /// First time in (from, to] at which a play begins, or is stopped or over and does not hold; infinity for none.
+  [[nodiscard]] double first_begin_or_end(double from, double to) const noexcept;
+  /// Clip times between which all its clocks run in [from, to], that of the pose before a fading seek included.
+  [[nodiscard]] std::pair<double, double> reach(double from, double to) const noexcept;
 
   /// As for plays, with the events of `clip`, which may be another one of the same length.
   [[nodiscard]] std::vector<FiredEvent> events_between(const Clip& clip, double from, double to,
                                                        bool from_start = false) const;
   [[nodiscard]] std::optional<FiredEvent> first_event(const Clip& clip, double from, double to, bool from_start = false,
                                                       std::optional<std::string_view> name = std::nullopt) const;
+  /// The first moment of `clip`, which may be another one of the same length, that a clock meets in (from, to]: also
+  /// the clock of the pose before a seek that fades. Nothing counts that a change itself fires.
+  [[nodiscard]] std::optional<PlayMeeting> first_meeting(const Clip& clip, double from, double to) const;
+  /// All sections that it has played.
+  [[nodiscard]] std::span<const PlaySection> sections() const noexcept;
+  /// The same, with the moments of a clip for each of `sections()`.
+  [[nodiscard]] std::optional<PlayMeeting> first_meeting(std::span<const Clip> clips, double from, double to) const;
   /// The events that the last change itself fires: those where it starts, and ends of intervals that a jump crosses.
   [[nodiscard]] std::vector<FiredEvent> events_of_change(const Clip& clip) const;
   /// Calls `visit` with each event of `events_between` until it returns false.
@@ -165,6 +197,12 @@ class Player {
   struct Life;
   explicit Player(std::shared_ptr<Life> latest);
   [[nodiscard]] const Life& at_time(double time, Side side) const noexcept;
+  template <class Tell>
+  static void visit_run(const Life& life, const Clip& clip, double from, double to, double last, const Tell& tell);
+  template <class Visit>
+  void visit_clocks(double from, double to, const Visit& visit) const;
+  template <class ClipOf>
+  [[nodiscard]] std::optional<PlayMeeting> first_met(double from, double to, const ClipOf& clip_of) const;
   std::shared_ptr<Life> latest_;
 };
 
@@ -203,12 +241,22 @@ struct RunningPlay {
   [[nodiscard]] bool shows(double time, Side side = Side::out) const noexcept {
     return player->shows(own_time(time), side);
   }
-  /// First time in (from, to] at which its weight jumps; infinity for none.
+  /// The following in stage time, as of `Player`.
   [[nodiscard]] double first_weight_jump(double from, double to) const noexcept;
+  [[nodiscard]] double first_begin_or_end(double from, double to) const noexcept;
+  [[nodiscard]] std::pair<double, double> reach(double from, double to) const noexcept {
+    return player->reach(own_time(from), own_time(to));
+  }
+  [[nodiscard]] std::optional<PlayMeeting> first_meeting(const Clip& moments, double from, double to) const;
+  [[nodiscard]] std::optional<PlayMeeting> first_meeting(std::span<const Clip> clips, double from, double to) const;
   /// As for plays. @param events  those of its own clip, or of another one of the same length
   [[nodiscard]] std::optional<FiredEvent> first_event(const Clip& events, double from, double to,
                                                       bool from_start = false,
                                                       std::optional<std::string_view> name = std::nullopt) const;
+
+ private:
+  template <class Clips>
+  [[nodiscard]] std::optional<PlayMeeting> first_met(const Clips& clips, double from, double to) const;
 };
 
 }  // namespace tweenfall
