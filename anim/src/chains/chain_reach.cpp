@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "chains/chain_solve.h"
 
 namespace tweenfall {
@@ -19,6 +21,7 @@ class FreeSolve {
   void reach_forward_and_backward() noexcept;
   void descend() noexcept;
   bool refine() noexcept;
+  void close() noexcept;
   void step(double caution) noexcept;
   [[nodiscard]] Dual distance() const noexcept { return length(target_ - shape_.end()); }
 
@@ -150,6 +153,36 @@ bool FreeSolve::refine() noexcept {
   return missing.v <= 1e-9 * reach;
 }
 
+// Where bones lie nearly on one line, steps lead on ever less. Then one joint turns until the end is as far from the
+// start as the target is, by the law of cosines, and the whole toward the target: of all joints that can, the one that
+// turns least.
+void FreeSolve::close() noexcept {
+  const Measured way = measured(target_ - shape_.at(0));
+  if (!way.any) return;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t joint = 0;
+  Arrow aimed;
+  for (std::size_t i = 1; i < count_; ++i) {
+    const Measured inner = measured(shape_.at(i) - shape_.at(0)), outer = measured(shape_.end() - shape_.at(i));
+    if (!inner.any || !outer.any) continue;
+    const Dual &a = inner.length, &b = outer.length, &d = way.length, ab = Dual(2) * a * b;
+    // One plus and one minus the cosine of the angle between both.
+    const Dual more = (d - a + b) * (d + a - b) / ab, less = (a + b - d) * (a + b + d) / ab;
+    if (!(more.v > 0) || !(less.v > 0)) continue;
+    Measured aside = measured(across(outer.unit, inner.unit));
+    if (!aside.any) aside.unit = Arrow{any_across(inner.unit.v), Vec3(0, 0, 0)};
+    const Arrow to = (more - Dual(1)) * inner.unit + root(more * less) * aside.unit;
+    const double turn = (to.v - outer.unit.v).norm();
+    if (!(turn < least)) continue;
+    least = turn;
+    joint = i;
+    aimed = to;
+  }
+  if (joint == 0) return;
+  shape_.aim(joint, shape_.end() - shape_.at(joint), aimed);
+  shape_.aim(0, shape_.end() - shape_.at(0), target_ - shape_.at(0));
+}
+
 void FreeSolve::run() noexcept {
   if (stretch()) return;
   bend(target_, shape_);
@@ -158,12 +191,16 @@ void FreeSolve::run() noexcept {
       reach_forward_and_backward();
     else
       descend();
+  // What it leaves over is shared by all joints: the steps after it begin near the target.
+  if (chain_.method() == ChainMethod::ccd)
+    for (int i = 0; i < 8; ++i) reach_forward_and_backward();
   // Long chains that have to turn over need several attempts, and reaching forward and backward uncurls them.
   bool there = refine();
   for (int more = 0; !there && more < 8; ++more) {
     for (int i = 0; i < 8; ++i) reach_forward_and_backward();
     there = refine();
   }
+  if (!there) close();
   untwist();
 }
 

@@ -23,11 +23,12 @@ Turning aimed(const Sight& sight, const Measured& to) noexcept {
   return arc(start, to.unit, any_across(start.v));
 }
 
-// The turn about `axis`, the line to the target, that brings the eye's up direction into the plane of the line of sight
-// and the `wanted` up; reduced where that is nearly along the axis. The sideways direction of the eye, which turns on a
-// cone about the axis, must become perpendicular to the wanted up.
-Turning rolled(const Arrow& axis, const Sight& sight, const Arrow& wanted) noexcept {
-  constexpr double fade = 0.05;
+// The angle about `axis`, the line to the target, that brings the eye's up direction into the plane of the line of
+// sight and the `wanted` up; reduced where that is nearly along the axis. The sideways direction of the eye, which
+// turns on a cone about the axis, must become perpendicular to the wanted up.
+// @param released  whether an angle near half a turn, to either side, is given up the nearer it is
+Dual roll_of(const Arrow& axis, const Sight& sight, const Arrow& wanted, bool released) noexcept {
+  constexpr double fade = 0.05, lets_go = 1;
   const Dual height = length(across(wanted, axis));
   if (!(height.v > 0)) return {};
   const Arrow side = cross(sight.forward, sight.up);
@@ -36,7 +37,11 @@ Turning rolled(const Arrow& axis, const Sight& sight, const Arrow& wanted) noexc
   if (!(square.v > 0)) return {};
   Dual angle = angle_of(sine, cosine) + angle_of(root(square - still * still), -still);
   if (angle.v > std::numbers::pi) angle.v -= 2 * std::numbers::pi;
-  return exp_turn(smooth_step(height / (Dual(fade) * length(wanted))) * angle * axis);
+  if (released) {
+    const Dual left = Dual(std::numbers::pi) - (angle.v < 0 ? -angle : angle);
+    angle = smooth_step(Dual(1 / lets_go) * left) * angle;
+  }
+  return smooth_step(height / (Dual(fade) * length(wanted))) * angle;
 }
 
 }  // namespace
@@ -114,10 +119,16 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
     const Measured to = measured(target - joint);
     Motion turned = pose[node];
     if (to.any) {
-      Turning correction = aimed(sight, to);
-      if (goal.up)
-        correction = rolled(to.unit, {sight.eye, correction * sight.forward, correction * sight.up}, up) * correction;
-      if (joints[i].share != 1) correction = exp_turn(Dual(joints[i].share) * log_turn(correction));
+      const Turning aim = aimed(sight, to);
+      const bool wholly = joints[i].share == 1;
+      const Dual share(joints[i].share);
+      Turning correction = wholly ? aim : exp_turn(share * log_turn(aim));
+      if (goal.up) {
+        const Dual roll = roll_of(to.unit, {sight.eye, aim * sight.forward, aim * sight.up}, up, !wholly);
+        // A part of the turning has brought the line to the target part of its way.
+        const Arrow axis = wholly ? to.unit : correction * (chains::inverse(aim) * to.unit);
+        correction = exp_turn((wholly ? roll : share * roll) * axis) * correction;
+      }
       const Turning outer = rotation_of(carrier);
       const Turning local = chains::inverse(outer) * correction * rotation_of(here);
       turned.pose.rotation = local.v;

@@ -55,6 +55,46 @@ TEST_CASE("chains of any size solve as those of a meter do") {
   }
 }
 
+TEST_CASE("long chains by descent do not flip where their target passes near the limit of their reach") {
+  Random random(8);
+  double worst = 0;
+  for (int i = 0; i < 200; ++i) {
+    CAPTURE(i);
+    Hierarchy nodes;
+    double length = 0;
+    for (std::size_t k = 0; k < 13; ++k) {
+      Node node{.name = std::to_string(k), .parent = k == 0 ? no_node : k - 1};
+      node.rest.rotation = random.rotation();
+      if (k > 0) node.rest.position = random.rotation() * Vec3(random.between(0.2, 2), 0, 0);
+      length += node.rest.position.norm();
+      nodes.add(node);
+    }
+    const JointChain chain(nodes, all_links(13, ChainMethod::ccd, {}));
+    const Vec3 from = random.vector(0.7 * length), to = random.vector(0.7 * length);
+    const auto reached = [&](double share) {
+      std::vector<Motion> pose = rest_pose(nodes);
+      reach(chain, still(from + share * (to - from)), entirely, pose);
+      return pose;
+    };
+    constexpr int steps = 50;
+    std::vector<Motion> before = reached(0);
+    for (int k = 0; k < steps; ++k) {
+      double low = static_cast<double>(k) / steps, high = static_cast<double>(k + 1) / steps;
+      std::vector<Motion> after = reached(high), next = after;
+      for (int halved = 0; halved < 30 && difference_of(before, after) > 0.02; ++halved) {
+        const double middle = (low + high) / 2;
+        std::vector<Motion> there = reached(middle);
+        const bool is_low = difference_of(before, there) > difference_of(there, after);
+        (is_low ? high : low) = middle;
+        (is_low ? after : before) = std::move(there);
+      }
+      worst = std::max(worst, difference_of(before, after));
+      before = std::move(next);
+    }
+  }
+  CHECK(worst <= 0.02);
+}
+
 TEST_CASE("a chain far from the origin reaches as well as coordinates there can tell") {
   Hierarchy nodes = straight_chain(4);
   const JointChain chain(nodes, all_links(4, ChainMethod::fabrik, {}));

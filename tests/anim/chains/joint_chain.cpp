@@ -125,6 +125,36 @@ TEST_CASE("a chain without limits stretches to what is too far, and folds before
   }
 }
 
+TEST_CASE("a chain without limits reaches what lies just before its reach, and what it must fold up for") {
+  Random random(7);
+  double worst = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const std::size_t count = 3 + static_cast<std::size_t>(i) % 11;
+    const bool even = i % 2 == 0;
+    const Hierarchy nodes = even ? straight_chain(count) : odd_chain(random, count);
+    const JointChain chain(nodes, links(count, i % 4 < 2 ? ChainMethod::fabrik : ChainMethod::ccd));
+    std::vector<Motion> pose = rest_pose(nodes);
+    for (Motion& motion : pose) motion.pose.rotation = random.rotation();
+    double reach_of = 0, longest = 0, scale = 1;
+    for (std::size_t k = 1; k < count; ++k) {
+      scale *= nodes[k - 1].rest.scale.x();
+      const double bone = scale * nodes[k].rest.position.norm();
+      reach_of += bone;
+      longest = std::max(longest, bone);
+    }
+    const double nearest = std::max(0.0, 2 * longest - reach_of), share = std::pow(10, random.between(-9, -1));
+    const double far = nearest + (i % 3 == 0 ? share : 1 - share) * (reach_of - nearest);
+    const Vec3 target = far * (random.rotation() * Vec3(1, 0, 0));
+    CAPTURE(count);
+    CAPTURE(share);
+    reach(chain, still(target), wholly, pose);
+    const double error = missed(chain, pose, target) / reach_of;
+    CHECK(error < 1e-7);
+    worst = std::max(worst, error);
+  }
+  MESSAGE("largest error: ", worst);
+}
+
 TEST_CASE("a chain that lies straight on the line to its target bends to reach it") {
   for (const ChainMethod method : {ChainMethod::fabrik, ChainMethod::ccd}) {
     for (const std::size_t count : {3, 5, 10, 40}) {

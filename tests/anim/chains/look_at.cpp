@@ -120,6 +120,39 @@ TEST_CASE("the rates of a look-at chain are the derivatives of its rotations") {
   MESSAGE("largest error of a rate: ", worst);
 }
 
+TEST_CASE("joints that share the turning do not flip where an up is opposite that of the pose") {
+  Random random(6);
+  const Hierarchy nodes = torso();
+  double worst = 0;
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    const LookAtChain chain(nodes, {.joints = {{"spine", 0.3}, {"chest", 0.2}, {"neck", 0.5}, {"head"}},
+                                    .forward = random.vector(1),
+                                    .up = random.vector(1)});
+    const std::vector<Motion> pose = SwingingPose(random, nodes, 0.02, 3).at(1);
+    const Vec3 from = random.vector(5), to = random.vector(5), up = random.vector(1);
+    const auto looked = [&](double share) {
+      std::vector<Motion> turned = pose;
+      look_at(chain, {.target = still(from + share * (to - from)), .up = still(up)}, looks, turned);
+      return turned;
+    };
+    // Halves a stretch in which much happens, until nothing may.
+    constexpr int steps = 40;
+    for (int k = 0; k < steps; ++k) {
+      double low = static_cast<double>(k) / steps, high = static_cast<double>(k + 1) / steps;
+      const Vec3 way = from + low * (to - from) - world_of_node(nodes, 4, pose).motion.pose.position;
+      if (way.cross(up).norm() < 0.2 * way.norm() * up.norm()) continue;
+      for (int halved = 0; halved < 34; ++halved) {
+        const double middle = (low + high) / 2;
+        const std::vector<Motion> there = looked(middle);
+        (difference_of(looked(low), there) > difference_of(there, looked(high)) ? high : low) = middle;
+      }
+      worst = std::max(worst, difference_of(looked(low), looked(high)));
+    }
+  }
+  CHECK(worst < 1e-5);
+}
+
 TEST_CASE("odd targets and ups leave a look-at chain with numbers") {
   const Hierarchy nodes = torso();
   const LookAtChain chain(nodes, {.joints = {{"neck", 0.5}, {"head"}}, .eye = {0, 0.1, 0.1}, .limit = 0.5});

@@ -55,7 +55,10 @@ class LookAtChain {
 
 struct LookAtGoal {
   Sample<Vec3> target;  ///< place in the world, m, and its velocity
-  /// World direction for `up`; if absent, or along the line of sight, the joints turn the shortest way.
+  /// World direction for `up`; if absent, or along the line of sight, the joints turn the shortest way. A joint that
+  /// does only its share of the turning lets go of an up that is nearly opposite its own. As the up goes all around
+  /// while the line of sight does so about it, somewhere it must jump: this is within 3 degrees of the up, to either
+  /// end, where the up is exactly opposite that of the pose.
   std::optional<Sample<Vec3>> up = std::nullopt;
 };
 
