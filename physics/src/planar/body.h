@@ -77,6 +77,7 @@ struct Meeting {
   bool touching = false;  ///< in the last step
   int count = 0;          ///< points in contact or about to be
   bool exact = false;     ///< found where the bodies are, not where they are going to meet
+  double clear = 0;       ///< without points: how far apart they were then, at least, m
   // Found when b was at this pose relative to a:
   Vec2 apart{0, 0};  ///< in a's axes
   Turn relative;

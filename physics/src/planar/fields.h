@@ -94,10 +94,10 @@ void each_field(T& makeup, const Visit& visit) {
 }
 template <Is<Meeting> T, class Visit>
 void each_field(T& meeting, const Visit& visit) {
-  auto& [a, b, part_a, part_b, friction, restitution, rolling_friction, sensing, touching, count, exact, apart,
+  auto& [a, b, part_a, part_b, friction, restitution, rolling_friction, sensing, touching, count, exact, clear, apart,
          relative, normal, core_a, core_b, feature, pressing, dragging, rolling] = meeting;
-  visit(a, b, part_a, part_b, friction, restitution, rolling_friction, sensing, touching, count, exact, apart, relative,
-        normal, core_a, core_b, feature, pressing, dragging, rolling);
+  visit(a, b, part_a, part_b, friction, restitution, rolling_friction, sensing, touching, count, exact, clear, apart,
+        relative, normal, core_a, core_b, feature, pressing, dragging, rolling);
 }
 template <Is<Hinge> T, class Visit>
 void each_field(T& hinge, const Visit& visit) {

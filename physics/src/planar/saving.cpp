@@ -18,7 +18,7 @@ namespace tweenfall::planar {
 namespace inner {
 namespace {
 
-constexpr saving::Envelope envelope{"plane", 5};
+constexpr saving::Envelope envelope{"plane", 6};
 
 template <class T>
 inline constexpr bool is_list = false;
@@ -100,11 +100,11 @@ struct NumberByNumber {
 };
 
 /// Everything that affects the next steps.
-template <class Tool, class State>
-void walk_world(Tool& tool, State& world) {
+template <class Tool, class State, class Contacts>
+void walk_world(Tool& tool, State& world, Contacts& contacts) {
   NumberByNumber<Tool>{tool}(world.settings, world.time, world.last_h, world.passed_over, world.bodies, world.makeups,
-                             world.unused, world.joints, world.unused_joints, world.meetings, world.contacts,
-                             world.overlaps, world.ignored);
+                             world.unused, world.joints, world.unused_joints, world.meetings, contacts, world.overlaps,
+                             world.ignored);
 }
 
 bool in_order(const std::vector<Meeting>& meetings) {
@@ -195,14 +195,17 @@ void World::Implementation::settle_in() {
            "the bodies of a pair do not exist");
     expect(meeting.part_a < makeups[meeting.a].plates.size() && meeting.part_b < makeups[meeting.b].plates.size(),
            "the parts of a pair do not exist");
-    expect(meeting.sensing || bodies[meeting.a].movable || bodies[meeting.b].movable, "a pair never moves");
+    // One that was just handed to a script is looked at again in the next step, and its pairs with it.
+    const bool looked_at_again = !bodies[meeting.a].boxed || !bodies[meeting.b].boxed;
+    expect(meeting.sensing || bodies[meeting.a].movable || bodies[meeting.b].movable || looked_at_again,
+           "a pair never moves");
     expect(meeting.count >= 0 && meeting.count <= 2, "a contact has 0 to 2 points");
     expect(
         meeting.friction >= 0 && meeting.restitution >= 0 && meeting.restitution <= 1 && meeting.rolling_friction >= 0,
         "a surface is impossible");
-    expect(inner::all_count({meeting.friction, meeting.rolling_friction, meeting.rolling, meeting.apart.x(),
-                             meeting.apart.y(), meeting.relative.cos, meeting.relative.sin, meeting.normal.x(),
-                             meeting.normal.y()}),
+    expect(inner::all_count({meeting.friction, meeting.rolling_friction, meeting.rolling, meeting.clear,
+                             meeting.apart.x(), meeting.apart.y(), meeting.relative.cos, meeting.relative.sin,
+                             meeting.normal.x(), meeting.normal.y()}),
            "a number is not finite");
     for (std::size_t i = 0; i < 2; ++i)
       expect(inner::all_count({meeting.core_a[i].x(), meeting.core_a[i].y(), meeting.core_b[i].x(),
@@ -219,23 +222,25 @@ void World::Implementation::settle_in() {
 
 std::uint64_t World::state_hash() const {
   saving::ByteWriter saved;
-  inner::walk_world(saved, inside());
+  inner::walk_world(saved, inside(), inside().contacts());
   return saving::checksum(saved.bytes);
 }
 
 std::vector<std::byte> World::save() const {
   inner::demand(!inside().failed, "a plane of which a body is not finite cannot be saved");
   saving::ByteWriter saved;
-  inner::walk_world(saved, inside());
+  inner::walk_world(saved, inside(), inside().contacts());
   return saving::sealed(inner::envelope, saved.bytes);
 }
 
 void World::load(std::span<const std::byte> saved) {
   saving::ByteReader reader(saving::opened(inner::envelope, saved), inner::envelope.kind);
   auto loaded = std::make_unique<Implementation>();
-  inner::walk_world(reader, *loaded);
+  std::vector<Contact> contacts;
+  inner::walk_world(reader, *loaded, contacts);
   reader.require(reader.at_end(), "there is more data than a plane");
   loaded->settle_in();
+  loaded->recall(contacts);
   implementation_ = std::move(loaded);
 }
 

@@ -67,7 +67,7 @@ bool World::Implementation::rouse() {
     wake(i);
     any = true;
     body.under_way = true;
-    const inner::Gain& gain = solver.gains[i] = gain_of(body);
+    const inner::BodyRow& gain = solver.gains[i] = gain_of(body);
     body.travel = (Vec2(gain.x, gain.y).norm() + body.reach * std::abs(gain.turn)) * step_length * step_length;
     moving.push_back(i);
   }
@@ -94,9 +94,18 @@ void World::Implementation::hold_in_the_air() {
     Body& body = bodies[i];
     if (!body.alive || !body.movable || body.driven || body.asleep || held[i]) continue;
     if (body.force == Vec2::Zero() && body.torque == 0) continue;
-    const inner::Gain gain = gain_of(body);
+    const inner::BodyRow gain = gain_of(body);
     const double pull = Vec2(gain.x, gain.y).norm() + std::abs(gain.turn) * body.reach;
     if (!(pull * settings.sleep_after < inner::pulling_share * settings.sleep_speed)) body.still_for = 0;
+  }
+}
+
+void World::Implementation::note_starts() {
+  starts.resize(bodies.size());
+  start_angles.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    starts[i] = bodies[i].center;
+    start_angles[i] = bodies[i].angle;
   }
 }
 

@@ -31,17 +31,14 @@ bool is_finite(const Body& body) {
 }  // namespace
 }  // namespace inner
 
-inner::Gain World::Implementation::gain_of(const Body& body) const {
+inner::BodyRow World::Implementation::gain_of(const Body& body) const {
   const Vec2 acceleration = settings.gravity + body.inverse_mass * body.force;
-  return {
-      .x = acceleration.x(), .y = acceleration.y(), .turn = body.inverse_moment * body.torque, .driven = body.driven};
+  return {.x = acceleration.x(), .y = acceleration.y(), .turn = body.inverse_moment * body.torque};
 }
 
 void World::Implementation::damp(std::uint32_t index, double h) {
   const Makeup& makeup = makeups[index];
-  inner::Gain& gain = solver.gains[index];
-  gain.keep = elementary::exp(-makeup.linear_damping * h);
-  gain.keep_turn = elementary::exp(-makeup.angular_damping * h);
+  solver.damped[index] = {elementary::exp(-makeup.linear_damping * h), elementary::exp(-makeup.angular_damping * h)};
 }
 
 /// What each body does by itself: gains, keyed courses, how far it may get.
@@ -70,7 +67,7 @@ void World::Implementation::set_out(double dt) {
       if (body.asleep && bears_the_same(body)) continue;
       if (body.asleep) wake(i);
       body.under_way = true;
-      inner::Gain& gain = solver.gains[i] = gain_of(body);
+      const inner::BodyRow& gain = solver.gains[i] = gain_of(body);
       gained = (Vec2(gain.x, gain.y).norm() + body.reach * std::abs(gain.turn)) * dt;
       if (body.driven) makeup.saturated = false;
       if (body.driven)
@@ -150,12 +147,8 @@ void World::Implementation::step(double dt, double parts) {
     check_finite(0);
   }
   step_length = dt;
-  starts.resize(bodies.size());
-  start_angles.resize(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    starts[i] = bodies[i].center;
-    start_angles[i] = bodies[i].angle;
-  }
+  const bool lets_sleep = !std::isinf(settings.sleep_after);
+  if (lets_sleep) note_starts();
   set_out(dt);
   check_finite(dt);
   near.update(bodies, makeups, kept_apart, meetings);
@@ -167,6 +160,7 @@ void World::Implementation::step(double dt, double parts) {
       settings.sub_steps ? inner::Effort{*settings.sub_steps} : depth.effort_for(bodies, meetings, active);
   sub_steps = effort.sub_steps;
   const double h = dt / sub_steps;
+  solver.damped.resize(bodies.size());
   for (const std::uint32_t i : moving)
     if (bodies[i].damped && bodies[i].movable) damp(i, h);
   // In shorter steps impulses are smaller.
@@ -184,7 +178,7 @@ void World::Implementation::step(double dt, double parts) {
                 effort.relaxes_each, warmth, parts, kept});
   arrive(dt);
   report();
-  if (!std::isinf(settings.sleep_after)) let_sleep(dt);
+  if (lets_sleep) let_sleep(dt);
   forget_forces();
   check_finite(0);
 }

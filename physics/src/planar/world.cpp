@@ -126,7 +126,11 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::World(const World& other)
-    : implementation_(other.implementation_ ? std::make_unique<Implementation>(*other.implementation_) : nullptr) {}
+    : implementation_(other.implementation_ ? std::make_unique<Implementation>(*other.implementation_) : nullptr) {
+  if (!implementation_) return;
+  static_cast<void>(
+      implementation_->told.get([&](std::vector<Contact>& contacts) { contacts = other.implementation_->contacts(); }));
+}
 World& World::operator=(const World& other) {
   if (this != &other) *this = World(other);
   return *this;
@@ -187,6 +191,7 @@ BodyId World::add(const BodySettings& settings) {
 void World::remove(BodyId id) {
   Implementation& world = inside();
   static_cast<void>(world.at(id));
+  static_cast<void>(world.contacts());
   world.wake_neighbors(id.index);
   world.wake(id.index);
   for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
@@ -284,6 +289,7 @@ double World::time() const noexcept {
 void World::set_motion(BodyId id, const Motion& motion) {
   static_cast<void>(inside().at(id));
   inner::demand_motion(motion);
+  static_cast<void>(inside().contacts());
   inside().wake_neighbors(id.index);
   inside().wake(id.index);
   Motion its = motion;
@@ -306,6 +312,7 @@ void World::set_drive(BodyId id, const Drive& drive) {
                 "a half-plane has no mass: only fixed and keyed bodies can be one");
   const Motion motion = world.motion_of(id.index);
   if (makeup.drive.owner() != drive.owner()) {
+    static_cast<void>(world.contacts());
     for (Meeting& meeting : world.meetings)
       if (meeting.a == id.index || meeting.b == id.index) {
         meeting.pressing = meeting.dragging = {};
@@ -397,7 +404,7 @@ void World::collide(BodyId a, BodyId b) {
 
 std::span<const Contact> World::contacts() const noexcept {
   if (!implementation_) return {};
-  return implementation_->contacts;
+  return implementation_->contacts();
 }
 std::span<const EndedContact> World::ended_contacts() const noexcept {
   if (!implementation_) return {};

@@ -8,6 +8,7 @@
 #include "planar/contacts/contact_solver.h"
 #include "planar/contacts/depth.h"
 #include "planar/contacts/near_pairs.h"
+#include "state/lazily_made.h"
 
 namespace tweenfall::planar {
 
@@ -17,6 +18,15 @@ namespace inner {
 struct JointEnd {
   Vec2 at, velocity;  ///< m, m/s
   double angle = 0, spin = 0;
+};
+
+/// Two bodies, or parts of them, that touched in the last step.
+struct Touch {
+  BodyId a, b;
+  std::uint32_t meeting = 0;  ///< of the world's
+  std::uint32_t given = 0;    ///< of the solver's
+  bool solved = false;        ///< in the last step; a sleeping pair is not
+  bool began = false;
 };
 
 }  // namespace inner
@@ -41,10 +51,13 @@ struct World::Implementation {
   std::size_t sleepers = 0;
 
   // Of the last step
-  std::vector<Contact> contacts, contacts_before;
+  std::vector<inner::Touch> touches, touches_before;
   std::vector<EndedContact> ended;
   std::vector<SensorOverlap> overlaps;
   int sub_steps = 0;
+
+  /// What the caller sees of the contacts, until bodies are moved or removed: they are told then, if they were not.
+  state::LazilyMade<std::vector<Contact>> told;
 
   // Memory for a step
   double step_length = 0;             ///< s
@@ -85,13 +98,17 @@ struct World::Implementation {
   [[nodiscard]] std::uint32_t root_of(std::uint32_t index);
   void arrive(double dt);
   void report();
-  void report(inner::Meeting& meeting, const inner::Given* given);
+  void report(std::uint32_t index, bool solved, std::uint32_t given);
+  [[nodiscard]] const std::vector<Contact>& contacts() const;
+  [[nodiscard]] Contact contact_of(const inner::Touch& touch) const;
+  void recall(const std::vector<Contact>& contacts);  ///< as they were told
   void sense();
+  void note_starts();
   void let_sleep(double dt);
   void forget_forces();
   /// Whether the pull on a sleeping body is that with which it fell asleep.
   [[nodiscard]] bool bears_the_same(const inner::Body& body) const;
-  [[nodiscard]] inner::Gain gain_of(const inner::Body& body) const;
+  [[nodiscard]] inner::BodyRow gain_of(const inner::Body& body) const;
   void hold_in_the_air();  ///< a body that a force pulls and nothing holds is not still
   void check_finite(double dt);
 };

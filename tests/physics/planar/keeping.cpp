@@ -1,5 +1,9 @@
 #include <tweenfall/physics/planar_world.h>
 
+#include <cmath>
+#include <functional>
+#include <numbers>
+
 #include "processor_time.h"
 #include "support.h"
 
@@ -74,6 +78,73 @@ TEST_CASE("in a plane a copy and what was saved and loaded step to the same bits
     REQUIRE(loaded.state_hash() == world.state_hash());
   }
   CHECK(copy.contacts().size() == world.contacts().size());
+}
+
+TEST_CASE(
+    "in a plane contacts are told as the step left them, whatever is moved or removed before they are asked for") {
+  planar::World world = busy_world();
+  for (int i = 0; i < 120; ++i) drive_on(world, i);
+  const std::vector<planar::Contact> told(world.contacts().begin(), world.contacts().end());
+  REQUIRE(told.size() > 20);
+  const auto same = [&](const planar::World& other) {
+    const std::span<const planar::Contact> its = other.contacts();
+    bool all = its.size() == told.size();
+    for (std::size_t i = 0; all && i < told.size(); ++i) {
+      const planar::Contact &one = told[i], &two = its[i];
+      all = one.a == two.a && one.b == two.b && one.impulse == two.impulse && one.total_impulse == two.total_impulse &&
+            one.began == two.began && one.approach_speed == two.approach_speed &&
+            one.manifold.normal == two.manifold.normal && one.manifold.count == two.manifold.count;
+      for (std::size_t n = 0; all && n < static_cast<std::size_t>(one.manifold.count); ++n)
+        all = one.manifold.points[n].position == two.manifold.points[n].position &&
+              one.manifold.points[n].penetration == two.manifold.points[n].penetration;
+    }
+    return all;
+  };
+  const BodyId touched = told[5].b;
+  const std::vector<std::function<void(planar::World&)>> changes{
+      [](planar::World&) {},
+      [&](planar::World& its) { its.set_motion(touched, {.position = Vec2(5, 50), .angle = 1}); },
+      [&](planar::World& its) { its.remove(touched); },
+      [&](planar::World& its) { its.set_drive(touched, Drive::keyed()); },
+      [&](planar::World& its) { its.apply_impulse(touched, Vec2(1, 2), Vec2(0, 0)); }};
+  for (const auto& change : changes) {
+    planar::World fresh = busy_world();
+    for (int i = 0; i < 120; ++i) drive_on(fresh, i);
+    change(fresh);
+    const planar::World copy = fresh;
+    CHECK(same(copy));
+    CHECK(same(fresh));
+    planar::World loaded;
+    loaded.load(fresh.save());
+    CHECK(same(loaded));
+    // What has ended is told from them.
+    fresh.step(1.0 / 60);
+    loaded.step(1.0 / 60);
+    CHECK(fresh.ended_contacts().size() == loaded.ended_contacts().size());
+    CHECK(fresh.state_hash() == loaded.state_hash());
+  }
+}
+
+TEST_CASE("in a plane what was found clear of each other is found again when it turns, or comes, into the way") {
+  planar::World world({.gravity = {0, 0}, .sleep_after = INFINITY});
+  world.add({.shape = {planar::Box{Vec2(0.2, 4)}}, .friction = 0, .fixed = true, .motion = {.position = Vec2(0.8, 0)}});
+  // Its corner reaches the wall after asin(0.6 / sqrt(0.5)) - 45 degrees.
+  const BodyId box = world.add(
+      {.shape = {planar::Box{}}, .mass = 1.0, .friction = 0, .motion = {.position = Vec2(0, 0), .spin = 0.5}});
+  const BodyId slow = world.add(
+      {.shape = {planar::Circle{0.25}}, .mass = 1.0, .motion = {.position = Vec2(0, 1.5), .velocity = Vec2(0.1, 0)}});
+  const double first = 2 * (std::asin(0.6 / std::sqrt(0.5)) - std::numbers::pi / 4), other = (0.6 - 0.25) / 0.1;
+  double box_at = 0, slow_at = 0;
+  for (int i = 1; i <= 600; ++i) {
+    world.step(1.0 / 120);
+    for (const planar::Contact& contact : world.contacts()) {
+      double& at = contact.b == box ? box_at : slow_at;
+      if (at == 0) at = i / 120.0;
+    }
+  }
+  CHECK(std::abs(box_at - first) <= 2.0 / 120);
+  CHECK(std::abs(slow_at - other) <= 2.0 / 120);
+  CHECK(world.motion(slow).position.x() < 0.36);
 }
 
 TEST_CASE("in a plane bytes that were changed or cut are refused and change nothing") {

@@ -25,7 +25,7 @@ double speed_of(const BodyRow& row, double normal_x, double normal_y, double tur
 /// Between blows, bodies fly under gravity: when the gap closes is the root of a quadratic, and so is how fast.
 ContactSolver::Arrival ContactSolver::arrival(const ContactBlock& block, int lane, int i, double h) const {
   const PointRow& point = block.point[i];
-  const std::uint32_t a = block.a[lane], b = block.b[lane];
+  const std::uint32_t a = block.a[lane] / row_length, b = block.b[lane] / row_length;
   const double normal_x = block.normal_x[lane], normal_y = block.normal_y[lane];
   const auto between = [&](const std::vector<BodyRow>& rows) {
     return speed_of(rows[b], normal_x, normal_y, point.turn_b[lane]) -
@@ -52,13 +52,14 @@ void ContactSolver::knock(const ContactBlock& block, int lane, double along, dou
   const PointRow& point = block.point[i];
   const double x = along * block.normal_x[lane] - across * block.normal_y[lane];
   const double y = along * block.normal_y[lane] + across * block.normal_x[lane];
-  const auto give = [&](std::uint32_t body, double inverse_mass, double inverse_moment, double twist, double sign) {
+  const auto give = [&](std::uint32_t row, double inverse_mass, double inverse_moment, double twist, double sign) {
     if (inverse_mass == 0) return;
+    const std::uint32_t body = row / row_length;
     const BodyRow change{sign * inverse_mass * x, sign * inverse_mass * y, sign * inverse_moment * twist, 0};
-    for (BodyRow* row : {&velocities_[body], &starts_[body]}) {
-      row->x += change.x;
-      row->y += change.y;
-      row->turn += change.turn;
+    for (BodyRow* its : {&velocities_[body], &starts_[body]}) {
+      its->x += change.x;
+      its->y += change.y;
+      its->turn += change.turn;
     }
     displacements_[body].x -= change.x * when;
     displacements_[body].y -= change.y * when;
@@ -119,8 +120,8 @@ bool ContactSolver::strike(const Bouncy& bouncy, double h) {
   for (int i = 0; i < 2 && friction > 0; ++i) {
     if (impulse[i] == 0) continue;
     const PointRow& point = block.point[i];
-    const auto slip = [&](std::uint32_t body, double arm) {
-      const BodyRow &start = starts_[body], &end = velocities_[body];
+    const auto slip = [&](std::uint32_t row, double arm) {
+      const BodyRow &start = starts_[row / row_length], &end = velocities_[row / row_length];
       const double share = when / h;
       return -block.normal_y[lane] * (start.x + (end.x - start.x) * share) +
              block.normal_x[lane] * (start.y + (end.y - start.y) * share) +

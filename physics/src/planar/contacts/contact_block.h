@@ -18,8 +18,12 @@ struct alignas(32) BodyRow {
   double x = 0, y = 0, turn = 0, unused = 0;
 };
 
+/// How many numbers a row has.
+constexpr std::uint32_t row_length = sizeof(BodyRow) / sizeof(double);
+
 /// A point through a step. A unit of impulse along the normal, or across it, gives the spin `turn`, or
-/// `slip`, times the body's inverse moment of inertia.
+/// `slip`, times the body's inverse moment of inertia. Until it is prepared, `turn_a`, `turn_b` and `slip_a`, `slip_b`
+/// are the places on the cores of a and b, each in its own axes, and the mass is 1, or 0 where there is no such point.
 struct PointRow {
   Lanes turn_a, turn_b;  ///< arm x normal
   Lanes slip_a, slip_b;  ///< arm x tangent
@@ -30,9 +34,11 @@ struct PointRow {
 };
 
 struct ContactBlock {
-  std::uint32_t a[lane_count], b[lane_count];
+  std::uint32_t a[lane_count], b[lane_count];  ///< where the rows of the bodies begin: `row_length` times their indices
   int points = 0;
-  Lanes normal_x, normal_y;
+  Lanes normal_x, normal_y;  ///< until it is prepared, in a's axes
+  Lanes skin_a, skin_b;      ///< m
+  Lanes approach;            ///< greatest closing speed of a point at the start of the step, m/s; at least 0
   Lanes friction;
   Lanes ahead;  ///< share of a gap that may be closed per second while nothing presses: rebounds are not held
   Lanes inverse_mass_a, inverse_mass_b, inverse_moment_a, inverse_moment_b;
@@ -49,11 +55,35 @@ struct PassRule {
   bool sum_up = false;   ///< afterwards, impulses are added to those of the step
 };
 
-/// Operations on all blocks, one after the other.
+/// Bodies through a sub-step, by body. Unless told otherwise, what is written is that of the bodies that move.
+struct BodyRows {
+  BodyRow* velocities = nullptr;
+  BodyRow* starts = nullptr;         ///< velocities at the start of the sub-step
+  BodyRow* unpushed = nullptr;       ///< velocities that it would have ended with without contacts
+  BodyRow* displacements = nullptr;  ///< since the start of the step
+  const BodyRow* gains = nullptr;    ///< of the velocities in a second, without contacts
+};
+
+/// Bodies at the start of a step, by body.
+struct BodyStarts {
+  const BodyRow* velocities = nullptr;
+  const BodyRow* poses = nullptr;   ///< center, cosine and sine of the angle
+  const BodyRow* masses = nullptr;  ///< inverse mass and moment of inertia
+};
+
+/// Operations on all blocks, one after the other, and on all bodies.
 struct Kernels {
+  void (*prepare)(ContactBlock* blocks, std::size_t count, const BodyStarts& bodies);
   void (*warm_start)(ContactBlock* blocks, std::size_t count, BodyRow* velocities);
   void (*solve)(ContactBlock* blocks, std::size_t count, BodyRow* velocities, const BodyRow* displacements,
                 const PassRule& rule);
+  /// Begins a sub-step of h seconds.
+  /// @param again  contacts give at once what they gave in the sub-step before
+  void (*begin)(const BodyRows& rows, std::span<const std::uint32_t> moving, double h, bool again);
+  /// Moves bodies by what the passes left. A body that was not pushed flies by the mean of its velocities, exactly.
+  void (*move)(const BodyRows& rows, std::span<const std::uint32_t> moving, double h);
+  /// `move`, and `begin` again.
+  void (*move_on)(const BodyRows& rows, std::span<const std::uint32_t> moving, double h);
 };
 
 /// For the widest registers that this processor has. All give the same bits.

@@ -39,7 +39,7 @@ void ContactSolver::color(const Scene& scene) {
     total += (of_color + lane_count - 1) / lane_count;
   }
   blocks_.resize(total);
-  const auto nobody = static_cast<std::uint32_t>(scene.bodies.size());
+  const auto nobody = row_length * static_cast<std::uint32_t>(scene.bodies.size());
   const auto clear = [&](std::uint32_t block) {
     blocks_[block] = {};
     for (int lane = 0; lane < lane_count; ++lane) blocks_[block].a[lane] = blocks_[block].b[lane] = nobody;
@@ -52,48 +52,28 @@ void ContactSolver::color(const Scene& scene) {
 
 void ContactSolver::fill(const Scene& scene, std::uint32_t k) {
   const Meeting& meeting = scene.meetings[scene.active[k]];
-  const Body &a = scene.bodies[meeting.a], &b = scene.bodies[meeting.b];
   ContactBlock& block = blocks_[places_[k] / lane_count];
   const int lane = static_cast<int>(places_[k] % lane_count);
-  const Vec2 normal = a.turn * meeting.normal, apart = b.center - a.center;
-  block.a[lane] = meeting.a;
-  block.b[lane] = meeting.b;
+  block.a[lane] = row_length * meeting.a;
+  block.b[lane] = row_length * meeting.b;
   block.points = std::max(block.points, meeting.count);
-  block.normal_x[lane] = normal.x();
-  block.normal_y[lane] = normal.y();
+  block.normal_x[lane] = meeting.normal.x();
+  block.normal_y[lane] = meeting.normal.y();
+  block.skin_a[lane] = skin_of(scene.bodies[meeting.a], scene.makeups[meeting.a], meeting.part_a);
+  block.skin_b[lane] = skin_of(scene.bodies[meeting.b], scene.makeups[meeting.b], meeting.part_b);
   block.friction[lane] = meeting.friction;
   block.ahead[lane] = meeting.restitution > 0 ? unheld : scene.sub_steps / scene.dt;
-  block.inverse_mass_a[lane] = a.inverse_mass;
-  block.inverse_mass_b[lane] = b.inverse_mass;
-  block.inverse_moment_a[lane] = a.inverse_moment;
-  block.inverse_moment_b[lane] = b.inverse_moment;
-  const double inverse_mass = a.inverse_mass + b.inverse_mass;
-  const double skin_a = skin_of(a, scene.makeups[meeting.a], meeting.part_a),
-               skin_b = skin_of(b, scene.makeups[meeting.b], meeting.part_b);
   for (int i = 0; i < 2; ++i) {
     PointRow& point = block.point[i];
     const auto n = static_cast<std::size_t>(i);
-    point.total_normal[lane] = point.total_sideways[lane] = 0;
-    if (i >= meeting.count) {
-      point.turn_a[lane] = point.turn_b[lane] = point.slip_a[lane] = point.slip_b[lane] = 0;
-      point.gap[lane] = point.mass[lane] = point.slip_mass[lane] = point.normal[lane] = point.sideways[lane] = 0;
-      continue;
-    }
-    const Vec2 core_a = a.turn * meeting.core_a[n], core_b = b.turn * meeting.core_b[n];
-    const double turn_a = cross(core_a, normal), turn_b = cross(core_b, normal);
-    const double slip_a = core_a.dot(normal) + skin_a, slip_b = core_b.dot(normal) - skin_b;
-    const double closing = normal.dot(a.velocity - b.velocity) + (turn_a * a.spin - turn_b * b.spin);
-    given[k].approach = std::max(given[k].approach, closing);
-    point.turn_a[lane] = turn_a;
-    point.turn_b[lane] = turn_b;
-    point.slip_a[lane] = slip_a;
-    point.slip_b[lane] = slip_b;
-    point.gap[lane] = normal.dot(apart + (core_b - core_a)) - (skin_a + skin_b);
-    point.mass[lane] = 1 / (inverse_mass + (a.inverse_moment * turn_a * turn_a + b.inverse_moment * turn_b * turn_b));
-    point.slip_mass[lane] =
-        1 / (inverse_mass + (a.inverse_moment * slip_a * slip_a + b.inverse_moment * slip_b * slip_b));
-    point.normal[lane] = scene.warmth * meeting.pressing[n];
-    point.sideways[lane] = scene.warmth * meeting.dragging[n];
+    const bool there = i < meeting.count;
+    point.mass[lane] = there ? 1 : 0;
+    point.turn_a[lane] = there ? meeting.core_a[n].x() : 0;
+    point.turn_b[lane] = there ? meeting.core_a[n].y() : 0;
+    point.slip_a[lane] = there ? meeting.core_b[n].x() : 0;
+    point.slip_b[lane] = there ? meeting.core_b[n].y() : 0;
+    point.normal[lane] = there ? scene.warmth * meeting.pressing[n] : 0;
+    point.sideways[lane] = there ? scene.warmth * meeting.dragging[n] : 0;
   }
 }
 
@@ -103,8 +83,21 @@ void ContactSolver::build(const Scene& scene) {
   displacements_.assign(rows, {});
   starts_.assign(rows, {});
   unpushed_.resize(rows);
-  struck_at_.assign(rows, 0);
-  for (const std::uint32_t i : scene.moving) velocities_[i] = starts_[i] = row_of(scene.bodies[i]);
+  struck_at_.resize(rows);
+  poses_.assign(rows, {});
+  masses_.assign(rows, {});
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    poses_[i] = {body.center.x(), body.center.y(), body.turn.cos, body.turn.sin};
+    masses_[i] = {body.inverse_mass, body.inverse_moment, 0, 0};
+  }
+  plain_.clear();
+  special_.clear();
+  for (const std::uint32_t i : scene.moving) {
+    const Body& body = scene.bodies[i];
+    velocities_[i] = starts_[i] = row_of(body);
+    (body.driven || (body.damped && body.movable) ? special_ : plain_).push_back(i);
+  }
   color(scene);
   given.assign(scene.active.size(), {});
   bouncy_.clear();
@@ -118,6 +111,7 @@ void ContactSolver::build(const Scene& scene) {
       rolling_.push_back({places_[k], k, meeting.rolling_friction, 1 / inverse, scene.warmth * meeting.rolling});
     }
   }
+  kernels().prepare(blocks_.data(), blocks_.size(), {velocities_.data(), poses_.data(), masses_.data()});
 }
 
 /// The pull of a driven body, as it will be at the end of the sub-step.
@@ -150,33 +144,46 @@ void ContactSolver::pull(const Body& body, Makeup& makeup, std::uint32_t index, 
   v.turn += turning.x();
 }
 
+BodyRows ContactSolver::rows() {
+  return {velocities_.data(), starts_.data(), unpushed_.data(), displacements_.data(), gains.data()};
+}
+
+/// What a body that is damped or driven does by itself.
+void ContactSolver::begin(const Scene& scene, std::uint32_t index, double h, int left) {
+  const Body& body = scene.bodies[index];
+  const BodyRow& gain = gains[index];
+  BodyRow& v = velocities_[index];
+  starts_[index] = v;
+  const Damped keep = body.damped && body.movable ? damped[index] : Damped{};
+  v = {(v.x + gain.x * h) * keep.linear, (v.y + gain.y * h) * keep.linear, (v.turn + gain.turn * h) * keep.angular, 0};
+  if (body.driven) pull(body, scene.makeups[index], index, h, left * h);
+}
+
 /// @param again  rows stay as they are through a step: what contacts gave a body in one sub-step, they give it at the
 ///               start of the next
 void ContactSolver::begin_sub_step(const Scene& scene, double h, int left, bool again) {
-  const bool at_once = again && bouncy_.empty();
-  if (again && !at_once) gifts_.resize(velocities_.size());
-  for (const std::uint32_t i : scene.moving) {
-    const Gain& gain = gains[i];
+  if (!bouncy_.empty()) return begin_between_blows(scene, h, left, again);
+  kernels().begin(rows(), plain_, h, again);
+  for (const std::uint32_t i : special_) {
     BodyRow& v = velocities_[i];
     BodyRow& unpushed = unpushed_[i];
-    const BodyRow start = v, gift = {v.x - unpushed.x, v.y - unpushed.y, v.turn - unpushed.turn, 0};
-    starts_[i] = start;
-    v = {(v.x + gain.x * h) * gain.keep, (v.y + gain.y * h) * gain.keep, (v.turn + gain.turn * h) * gain.keep_turn, 0};
-    if (gain.driven) pull(scene.bodies[i], scene.makeups[i], i, h, left * h);
-    if (at_once) {
-      unpushed = v;
-      v = {v.x + gift.x, v.y + gift.y, v.turn + gift.turn, 0};
-    } else if (again) {
-      gifts_[i] = gift;
-    }
+    const BodyRow gift = {v.x - unpushed.x, v.y - unpushed.y, v.turn - unpushed.turn, 0};
+    begin(scene, i, h, left);
+    unpushed = v;
+    if (again) v = {v.x + gift.x, v.y + gift.y, v.turn + gift.turn, 0};
   }
-  if (at_once) return;
-  if (!bouncy_.empty()) strike(h);
-  unpushed_ = velocities_;
-  if (again) give_again(scene);
 }
 
-void ContactSolver::give_again(const Scene& scene) {
+void ContactSolver::begin_between_blows(const Scene& scene, double h, int left, bool again) {
+  if (again) gifts_.resize(velocities_.size());
+  for (const std::uint32_t i : scene.moving) {
+    const BodyRow &v = velocities_[i], &unpushed = unpushed_[i];
+    if (again) gifts_[i] = {v.x - unpushed.x, v.y - unpushed.y, v.turn - unpushed.turn, 0};
+    begin(scene, i, h, left);
+  }
+  strike(h);
+  unpushed_ = velocities_;
+  if (!again) return;
   for (const std::uint32_t i : scene.moving) {
     BodyRow& v = velocities_[i];
     const BodyRow& gift = gifts_[i];
@@ -186,21 +193,37 @@ void ContactSolver::give_again(const Scene& scene) {
   }
 }
 
-/// A body that was not pushed flies by the mean of its velocities, exactly; others move by what the pushes left.
 void ContactSolver::move(const Scene& scene, double h) {
-  for (const std::uint32_t i : scene.moving) {
-    const BodyRow &v = velocities_[i], &unpushed = unpushed_[i], &start = starts_[i];
-    BodyRow& moved = displacements_[i];
-    const bool flies = v.x == unpushed.x && v.y == unpushed.y && v.turn == unpushed.turn && !gains[i].driven;
-    if (flies) {
-      moved.x += 0.5 * (start.x + v.x) * h;
-      moved.y += 0.5 * (start.y + v.y) * h;
-      moved.turn += 0.5 * (start.turn + v.turn) * h;
-    } else {
-      moved.x += v.x * h;
-      moved.y += v.y * h;
-      moved.turn += v.turn * h;
-    }
+  kernels().move(rows(), plain_, h);
+  for (const std::uint32_t i : special_) move(scene, i, h);
+}
+
+void ContactSolver::move(const Scene& scene, std::uint32_t index, double h) {
+  const BodyRow &v = velocities_[index], &unpushed = unpushed_[index], &start = starts_[index];
+  BodyRow& moved = displacements_[index];
+  const bool flies = v.x == unpushed.x && v.y == unpushed.y && v.turn == unpushed.turn && !scene.bodies[index].driven;
+  if (flies) {
+    moved.x += 0.5 * (start.x + v.x) * h;
+    moved.y += 0.5 * (start.y + v.y) * h;
+    moved.turn += 0.5 * (start.turn + v.turn) * h;
+  } else {
+    moved.x += v.x * h;
+    moved.y += v.y * h;
+    moved.turn += v.turn * h;
+  }
+}
+
+/// From one sub-step to the next, where nothing comes between them.
+void ContactSolver::move_on(const Scene& scene, double h, int left) {
+  kernels().move_on(rows(), plain_, h);
+  for (const std::uint32_t i : special_) {
+    move(scene, i, h);
+    BodyRow& v = velocities_[i];
+    BodyRow& unpushed = unpushed_[i];
+    const BodyRow gift = {v.x - unpushed.x, v.y - unpushed.y, v.turn - unpushed.turn, 0};
+    begin(scene, i, h, left);
+    unpushed = v;
+    v = {v.x + gift.x, v.y + gift.y, v.turn + gift.turn, 0};
   }
 }
 
@@ -209,6 +232,7 @@ void ContactSolver::store(const Scene& scene) {
     Meeting& meeting = scene.meetings[scene.active[k]];
     const ContactBlock& block = blocks_[places_[k] / lane_count];
     const auto lane = static_cast<std::int64_t>(places_[k] % lane_count);
+    given[k].approach = block.approach[lane];
     for (int i = 0; i < meeting.count; ++i) {
       const auto n = static_cast<std::size_t>(i);
       if (scene.kept > 0) {
@@ -248,17 +272,24 @@ void ContactSolver::solve(Scene scene) {
   JointRows joints(scene.bodies, scene.makeups, scene.joints, h, scene.warmth, scene.parts);
   const Kernels& kernel = kernels();
   const bool contacts_alone = joints.empty() && rolling_.empty();
+  bool begun = false;
   for (int sub_step = 0; sub_step < scene.sub_steps; ++sub_step) {
     const bool again = contacts_alone && sub_step > 0;
-    begin_sub_step(scene, h, scene.sub_steps - 1 - sub_step, again);
+    const int left = scene.sub_steps - 1 - sub_step;
+    if (!begun) begin_sub_step(scene, h, left, again);
     joints.begin_sub_step(displacements_, velocities_);
     if (!again) kernel.warm_start(blocks_.data(), blocks_.size(), velocities_.data());
     warm_start_rolling();
     joints.solve(velocities_, true);
     resist_rolling();
-    const bool relaxes = scene.relaxes_each || sub_step + 1 == scene.sub_steps;
+    const bool relaxes = scene.relaxes_each || left == 0;
     soft.sum_up = !relaxes;
     kernel.solve(blocks_.data(), blocks_.size(), velocities_.data(), displacements_.data(), soft);
+    begun = contacts_alone && bouncy_.empty() && !relaxes;
+    if (begun) {
+      move_on(scene, h, left - 1);
+      continue;
+    }
     move(scene, h);
     joints.solve(velocities_, false);
     if (relaxes) kernel.solve(blocks_.data(), blocks_.size(), velocities_.data(), displacements_.data(), hard);

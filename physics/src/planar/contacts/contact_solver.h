@@ -10,11 +10,9 @@
 
 namespace tweenfall::planar::inner {
 
-/// What a free body gains without contacts, and what its damping leaves in a sub-step.
-struct Gain {
-  double x = 0, y = 0, turn = 0;  ///< m/s^2, rad/s^2
-  double keep = 1, keep_turn = 1;
-  bool driven = false;
+/// The share of its velocities that a body's damping leaves in a sub-step.
+struct Damped {
+  double linear = 1, angular = 1;
 };
 
 /// Impulses of a step at one meeting, N s.
@@ -46,8 +44,9 @@ class ContactSolver {
  public:
   void solve(Scene scene);
 
-  std::vector<Gain> gains;   ///< by body
-  std::vector<Given> given;  ///< by active meeting
+  std::vector<BodyRow> gains;  ///< of velocity without contacts, m/s^2 and rad/s^2, by body
+  std::vector<Damped> damped;  ///< by body; only of those that are damped
+  std::vector<Given> given;    ///< by active meeting
 
  private:
   struct Bouncy {
@@ -73,7 +72,10 @@ class ContactSolver {
   void build(const Scene& scene);
   void color(const Scene& scene);
   void fill(const Scene& scene, std::uint32_t k);
+  [[nodiscard]] BodyRows rows();
   void begin_sub_step(const Scene& scene, double h, int left, bool again);
+  void begin_between_blows(const Scene& scene, double h, int left, bool again);
+  void begin(const Scene& scene, std::uint32_t index, double h, int left);
   void pull(const Body& body, Makeup& makeup, std::uint32_t index, double h, double ahead);
   void strike(double h);
   bool strike(const Bouncy& bouncy, double h);
@@ -82,13 +84,16 @@ class ContactSolver {
   void warm_start_rolling();
   void resist_rolling();
   void move(const Scene& scene, double h);
-  void give_again(const Scene& scene);
+  void move(const Scene& scene, std::uint32_t index, double h);
+  void move_on(const Scene& scene, double h, int left);
   void store(const Scene& scene);
   void finish(const Scene& scene);
 
   double parts_ = 1;  ///< how often the present step fits into the whole one
   std::vector<BodyRow> velocities_, starts_, unpushed_, displacements_;
-  std::vector<BodyRow> gifts_;  ///< by contacts, in the last sub-step; only kept while blows come between
+  std::vector<BodyRow> poses_, masses_;  ///< at the start of the step
+  std::vector<BodyRow> gifts_;           ///< by contacts, in the last sub-step; only kept while blows come between
+  std::vector<std::uint32_t> plain_, special_;  ///< bodies under way: of the special ones, forces act also by velocity
   std::vector<double> struck_at_;
   std::vector<ContactBlock> blocks_;
   std::vector<std::uint32_t> colors_, places_;

@@ -20,14 +20,17 @@ std::uint32_t Depth::deepest(const std::vector<Body>& bodies, const std::vector<
   constexpr int most_passes = 12;
   constexpr std::uint32_t nobody = 0xfffffffe;
   levels_.resize(bodies.size());
-  bool pushed = false;
-  for (const std::uint32_t k : active)
-    for (const std::uint32_t end : {meetings[k].a, meetings[k].b}) {
-      const Body& body = bodies[end];
-      // A body pushed from the side may be carried by the whole row, however near the floor is.
-      pushed = pushed || (!body.movable && body.under_way);
-      levels_[end] = !body.movable || body.asleep ? 0 : nobody;
-    }
+  bool leads = false;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = bodies[i];
+    leads = leads || (!body.movable && body.under_way);
+    levels_[i] = !body.movable || body.asleep ? 0 : nobody;
+  }
+  // A body pushed from the side may be carried by the whole row, however near the floor is.
+  const bool pushed = leads && std::any_of(active.begin(), active.end(), [&](std::uint32_t k) {
+                        const auto is_led = [](const Body& body) { return !body.movable && body.under_way; };
+                        return is_led(bodies[meetings[k].a]) || is_led(bodies[meetings[k].b]);
+                      });
   bool changed = !pushed;
   const auto lower = [&](std::uint32_t level, std::uint32_t other) {
     if (levels_[level] <= levels_[other] + 1) return;
@@ -42,15 +45,16 @@ std::uint32_t Depth::deepest(const std::vector<Body>& bodies, const std::vector<
       lower(meeting.b, meeting.a);
     }
   }
-  std::uint32_t deepest = 0, movable = 0;
-  for (const std::uint32_t k : active)
-    for (const std::uint32_t end : {meetings[k].a, meetings[k].b}) {
-      if (levels_[end] == 0) continue;
-      if (levels_[end] != nobody) deepest = std::max(deepest, levels_[end]);
-      // Each is counted once per contact: that is no less than their number.
-      ++movable;
-    }
-  return changed || pushed ? movable : deepest;
+  std::uint32_t deepest = 0;
+  if (changed || pushed) {
+    // Each is counted once per contact: that is no less than their number.
+    for (const std::uint32_t k : active)
+      deepest += (levels_[meetings[k].a] != 0 ? 1 : 0) + (levels_[meetings[k].b] != 0 ? 1 : 0);
+    return deepest;
+  }
+  for (const std::uint32_t level : levels_)
+    if (level != nobody) deepest = std::max(deepest, level);
+  return deepest;
 }
 
 Effort Depth::effort_for(const std::vector<Body>& bodies, const std::vector<Meeting>& meetings,

@@ -29,7 +29,7 @@ class Depth {
   [[nodiscard]] std::uint32_t deepest(const std::vector<Body>& bodies, const std::vector<Meeting>& meetings,
                                       std::span<const std::uint32_t> active);
 
-  std::vector<std::uint32_t> levels_;  ///< by body; only of bodies that the meetings touch
+  std::vector<std::uint32_t> levels_;  ///< by body
 };
 
 }  // namespace tweenfall::planar::inner

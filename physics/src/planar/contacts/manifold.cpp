@@ -121,9 +121,9 @@ class Finder {
     }
     const double enough = limit_ + skins_;
     const BestSide of_a = best_side(a_, b_, enough);
-    if (of_a.apart > enough) return;
+    if (of_a.apart > enough) return keep_clear(of_a);
     const BestSide of_b = best_side(b_, a_, enough);
-    if (of_b.apart > enough) return;
+    if (of_b.apart > enough) return keep_clear(of_b);
     flipped_ = of_b.apart > of_a.apart + alike * size;
     const BestSide& best = flipped_ ? of_b : of_a;
     if ((best.apart <= 0 && (beyond(a_, b_) || beyond(b_, a_))) || !touch_side(best, alike * size))
@@ -151,6 +151,7 @@ class Finder {
   void put(const Vec2& core_a, const Vec2& core_b, double apart, std::uint32_t feature) {
     found.points[static_cast<std::size_t>(found.count++)] = {core_a, core_b, apart - skins_, feature};
   }
+  void keep_clear(const BestSide& best) { found.clear = best.apart - skins_; }
   void add_single(const Vec2& on_a, const Vec2& on_b, const Vec2& normal, std::uint32_t feature) {
     const double apart = normal.dot(on_b - on_a);
     if (apart - skins_ > limit_) return;

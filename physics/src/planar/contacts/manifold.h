@@ -25,6 +25,7 @@ struct Found {
   Vec2 normal{0, 1};  ///< unit, from a to b, world
   std::array<FoundPoint, 2> points{};
   int count = 0;
+  double clear = 0;  ///< without points: how far apart the skins are at least, as far as that is known, m
 };
 
 /// Where two plates touch, or nearly: points with a gap up to `limit`. For separated plates, the nearest point is

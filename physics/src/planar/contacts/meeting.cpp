@@ -58,6 +58,15 @@ bool keeps_its_points(const Meeting& meeting, const Body& a, const Side& side_a,
   return off.cos > 0 && std::abs(off.sin) * std::max(side_a.leverage, side_b.leverage) <= kept_turn;
 }
 
+/// Whether parts that were clear of each other are still farther apart than `limit`, however they moved since.
+bool stays_clear(const Meeting& meeting, const Body& a, const Body& b, double reach_b, double limit) {
+  const Turn off = meeting.relative.to(a.turn.to(b.turn));
+  // An angle of up to a quarter turn is at most so many times its sine.
+  constexpr double widest = 1.5708;
+  const double left = meeting.clear - limit - widest * std::abs(off.sin) * reach_b;
+  return off.cos > 0 && left > 0 && (a.turn.back(b.center - a.center) - meeting.apart).squaredNorm() < left * left;
+}
+
 /// Earlier points pass on their impulses. If none of the earlier points is left, it is not the
 /// contact that resisted rolling.
 void take_over(const Meeting& before, Meeting& meeting) {
@@ -77,6 +86,7 @@ void take_over(const Meeting& before, Meeting& meeting) {
 void adopt(const Found& found, const Body& a, const Turn& turn_a, const Turn& turn_b, Meeting& meeting) {
   const Meeting before = meeting;
   meeting.count = found.count;
+  meeting.clear = found.clear;
   meeting.normal = a.turn.back(found.normal);
   for (int i = 0; i < found.count; ++i) {
     const auto n = static_cast<std::size_t>(i);
@@ -105,6 +115,7 @@ void World::Implementation::look_at(Meeting& meeting, double dt) {
     const double far = a.reach + b.reach + limit;
     if ((b.center - a.center).squaredNorm() > far * far) {
       meeting.count = 0;
+      meeting.clear = 0;
       return;
     }
   }
@@ -113,8 +124,10 @@ void World::Implementation::look_at(Meeting& meeting, double dt) {
   if (!(side_a.lone && side_b.lone) && !is_quick && inner::keeps_its_points(meeting, a, side_a, b, side_b)) return;
   const inner::Plate &plate_a = makeups[meeting.a].plates[meeting.part_a],
                      &plate_b = makeups[meeting.b].plates[meeting.part_b];
+  if (meeting.count == 0 && meeting.exact && inner::stays_clear(meeting, a, b, plate_b.reach, limit)) return;
   if ((a.compound || b.compound) && inner::are_far(a, plate_a, b, plate_b, limit)) {
     meeting.count = 0;
+    meeting.clear = 0;
     return;
   }
   meeting.apart = a.turn.back(b.center - a.center);
@@ -126,7 +139,7 @@ void World::Implementation::look_at(Meeting& meeting, double dt) {
     return;
   }
   const auto way_of = [&](const Body& body, std::uint32_t index) -> Vec2 {
-    const inner::Gain& gain = solver.gains[index];
+    const inner::BodyRow& gain = solver.gains[index];
     return (body.velocity + 0.5 * dt * Vec2(gain.x, gain.y)) * dt;
   };
   const Vec2 way_a = way_of(a, meeting.a), way_b = way_of(b, meeting.b);

@@ -7,8 +7,8 @@ namespace tweenfall::planar::inner {
 namespace {
 
 void turn_both(const ContactBlock& block, int lane, BodyRow* velocities, double impulse) {
-  velocities[block.a[lane]].turn -= block.inverse_moment_a[lane] * impulse;
-  velocities[block.b[lane]].turn += block.inverse_moment_b[lane] * impulse;
+  velocities[block.a[lane] / row_length].turn -= block.inverse_moment_a[lane] * impulse;
+  velocities[block.b[lane] / row_length].turn += block.inverse_moment_b[lane] * impulse;
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ void ContactSolver::resist_rolling() {
     const int lane = static_cast<int>(rolling.place % lane_count);
     double pressing = 0;
     for (int i = 0; i < block.points; ++i) pressing += block.point[i].normal[lane];
-    const double spin = velocities_[block.b[lane]].turn - velocities_[block.a[lane]].turn;
+    const double spin = velocities_[block.b[lane] / row_length].turn - velocities_[block.a[lane] / row_length].turn;
     const double limit = rolling.friction * pressing;
     const double next = std::clamp(rolling.impulse - rolling.mass * spin, -limit, limit);
     turn_both(block, lane, velocities_.data(), next - rolling.impulse);
