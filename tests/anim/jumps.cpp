@@ -1,5 +1,6 @@
 // Where clips jump: at keys, between them by formulas and modifiers, and where plays begin, loop and end.
 
+#include "processor_time.h"
 #include "support.h"
 
 #include <tweenfall/anim/jump_search.h>
@@ -200,4 +201,18 @@ TEST_CASE("the jumps of a play are found as they were, whatever is asked of it l
   std::vector<double> seen;
   for (double time = 0; (time = search.first(changed, time, 9)) < 9;) seen.push_back(time);
   CHECK(all_near(seen, {0.25, 1.25, 2.25, 2.5, 2.75, 2.9, 4}));
+}
+
+TEST_CASE("a jump outside of the section that is played is not looked for round by round") {
+  Clip clip{.name = "clip", .duration = 1};
+  clip.tracks.push_back({"ball", "position.x",
+                         keyed_curve<double>({{.time = 0, .value = 0},
+                                              {.time = 0.5, .value = 0, .ease = Ease::hold()},
+                                              {.time = 0.75, .value = 1, .ease = Ease::hold()},
+                                              {.time = 1, .value = 1}})});
+  const Animation animation(only_a_ball(), {clip}, {{.clip = 0, .to = 1e-9, .loop = Loop{LoopMode::repeat, 0}}});
+  const JumpSearch search(animation);
+  const double begun = processor_seconds();
+  CHECK(std::isinf(search.first(animation, 1, 1000)));
+  CHECK(processor_seconds() - begun < 0.5);
 }

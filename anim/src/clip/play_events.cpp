@@ -281,7 +281,9 @@ std::optional<PlayMeeting> Player::first_met(double from, double to, const ClipO
   std::optional<PlayMeeting> first;
   visit_clocks(from, to, [&](const Life& life, double begin, double end) {
     const Clip& clip = clip_of(life);
-    if (clip.events.empty()) return;
+    // Else its rounds would all be searched in vain.
+    const auto is_played = [&](const ClipEvent& moment) { return clips::place_of(life.rounds, moment).has_value(); };
+    if (std::ranges::none_of(clip.events, is_played)) return;
     visit_run(life, clip, from, to, end, [&](FiredEvent&& moment) {
       if (!(moment.time > from && moment.time >= begin)) return true;
       if (moment.time <= std::min(to, end) && !(first && first->moment.time <= moment.time))

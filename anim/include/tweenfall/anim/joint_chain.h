@@ -6,7 +6,7 @@
 /// target, and its rates are the exact derivatives of that function.
 ///
 /// Without limits, sweeps by the method give the shape and least squares bring the end to the target, to rounding.
-/// Every target within reach is reached, and close targets have close results.
+/// Every target within reach is reached, at worst to 1e-8 of the chain's length, and close targets have close results.
 ///
 /// With limits, the target moves from the end of the chain to its place in as many steps as there are sweeps, and the
 /// joints follow it within their limits by least squares; the method determines which of them turn the most. The
