@@ -3,6 +3,8 @@
 #include <tweenfall/curves/number_text.h>
 
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -210,8 +212,28 @@ const StageDescription& Stage::description() const {
   return inside().description;
 }
 
+namespace {
+
+/// The nearest angle that a number of degrees gives as documents read it: some doubles between are given by none. So a
+/// file of what was asked for says all of it.
+double angle_in_degrees(double angle) {
+  constexpr double one = std::numbers::pi / 180, infinity = std::numeric_limits<double>::infinity();
+  const double near = angle / one, least = std::nextafter(near, -infinity), most = std::nextafter(near, infinity);
+  double best = near * one;
+  for (const double degrees : {least, most})
+    if (std::abs(degrees * one - angle) < std::abs(best - angle)) best = degrees * one;
+  return std::isfinite(best) ? best : angle;
+}
+
+TakeOver in_degrees(TakeOver settings) {
+  for (double& angle : settings.add.angular) angle = angle_in_degrees(angle);
+  return settings;
+}
+
+}  // namespace
+
 void Stage::release(NodeId node, const TakeOver& settings) {
-  inside().command(staging::change::Release{node, settings});
+  inside().command(staging::change::Release{node, in_degrees(settings)});
 }
 
 void Stage::recover(NodeId node, const HandBack& settings) {
@@ -219,7 +241,9 @@ void Stage::recover(NodeId node, const HandBack& settings) {
 }
 
 void Stage::hand_over(NodeId node, const OwnerChange& change) {
-  inside().command(staging::change::HandOver{node, change});
+  OwnerChange asked = change;
+  asked.take_over = in_degrees(asked.take_over);
+  inside().command(staging::change::HandOver{node, asked});
 }
 
 void Stage::ask(std::string_view play, PlayAction action) {

@@ -35,15 +35,18 @@ const Form* settle_form(FormStore& store, const ValueForms& values);
 void read_settle(const json::Value& value, Settle& settle, Building& building);
 
 // How overlap is handled. @param access gives the thing's take-over
+const Form* overlap_form(FormStore& store, const ValueForms& values);
+void read_overlap(const json::Value& value, TakeOver& take_over, Building& building);
 template <class Thing, class Access>
 [[nodiscard]] Row<Thing> overlap_row(Access access) {
-  using Overlap = TakeOver::Overlap;
-  return one_of<Thing, Overlap>(
-      "overlap", "what becomes of overlap: \"push\", \"ignore\", \"rewind\" or \"veto\"",
-      {{"push", Overlap::push}, {"ignore", Overlap::ignore}, {"rewind", Overlap::rewind}, {"veto", Overlap::veto}},
-      "of a body that leaves its path in others: they are pushed apart, pass "
-      "through each other, it leaves from where it was clear, or stays",
-      [access](Thing& thing) -> Overlap& { return access(thing).overlap; });
+  const auto read = [access](const json::Value& value, Thing& thing, Building& building) {
+    read_overlap(value, access(thing), building);
+  };
+  return {"overlap",
+          overlap_form,
+          "of a body that leaves its path in others: they are pushed apart, pass through each other, it leaves from "
+          "where it was clear, or stays",
+          {read, "\"push\""}};
 }
 
 // The velocity that a released body starts with

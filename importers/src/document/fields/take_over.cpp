@@ -32,7 +32,37 @@ const Table<TakeOver>& take_over_table() {
   return table;
 }
 
+const Row<TakeOver>& overlap_words() {
+  using Overlap = TakeOver::Overlap;
+  static const Row<TakeOver> row = one_of<TakeOver, Overlap>(
+      "overlap", "what becomes of overlap: \"push\", \"ignore\", \"rewind\" or \"veto\"",
+      {{"push", Overlap::push}, {"ignore", Overlap::ignore}, {"rewind", Overlap::rewind}, {"veto", Overlap::veto}}, "",
+      &TakeOver::overlap);
+  return row;
+}
+
+const Table<TakeOver>& rewind_table() {
+  const Meaning<TakeOver> rewind = {[](const json::Value& value, TakeOver& out, Building&) {
+    out.overlap = TakeOver::Overlap::rewind;
+    out.rewind_within = value.number();
+  }};
+  static const Table<TakeOver> table("a rewind", {{"rewind", &ValueForms::not_negative,
+                                                   "by at most so many seconds, else it is pushed", rewind, true}});
+  return table;
+}
+
 }  // namespace
+
+const Form* overlap_form(FormStore& store, const ValueForms& values) {
+  return store.add(
+      choice_of("what becomes of overlap: \"push\", \"ignore\", \"rewind\", {\"rewind\": seconds} or \"veto\"",
+                {overlap_words().form.in(store, values), store.add(rewind_table().form(store, values))}));
+}
+
+void read_overlap(const json::Value& value, TakeOver& take_over, Building& building) {
+  if (value.is(json::Value::Kind::text)) overlap_words().meaning.read(value, take_over, building);
+  rewind_table().read(value, take_over, building);
+}
 
 const Form* take_over_form(FormStore& store, const ValueForms& values) {
   Form full = take_over_table().form(store, values);

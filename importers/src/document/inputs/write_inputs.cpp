@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tweenfall {
@@ -154,7 +155,10 @@ std::string velocity_text(const TakeOver& settings) {
 void add_take_over(Fields& fields, const TakeOver& settings) {
   if (const std::string velocity = velocity_text(settings); velocity != "{}") fields.add("velocity", velocity);
   constexpr const char* words[] = {"push", "ignore", "rewind", "veto"};
-  if (settings.overlap != TakeOver{}.overlap)
+  if (settings.overlap == TakeOver::Overlap::rewind && settings.rewind_within != TakeOver{}.rewind_within)
+    fields.add("overlap", "{\"rewind\": " +
+                              number_text(std::min(settings.rewind_within, std::numeric_limits<double>::max())) + "}");
+  else if (settings.overlap != TakeOver{}.overlap)
     fields.add("overlap", string_text(words[static_cast<int>(settings.overlap)]));
 }
 
