@@ -2,6 +2,7 @@
 #include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -247,6 +248,16 @@ void Stage::hand_over(NodeId node, const OwnerChange& change) {
 }
 
 void Stage::ask(std::string_view play, PlayAction action) {
+  // How a play is to begin that there is not yet: what is kept says its clip, so that it does not depend on the others.
+  if (auto* start = std::get_if<playing::Start>(&action);
+      start && start->clip.empty() && !(*start == playing::Start{})) {
+    const Animation& animation = *inside().current().animation;
+    const bool is_there = std::ranges::any_of(animation.players(), [&](const Player& player) {
+      const std::string& name = player.play().name;
+      return (name.empty() ? animation.clips()[player.play().clip].name : name) == play;
+    });
+    if (!is_there) start->clip = play;
+  }
   inside().command(staging::change::Ask{std::string(play), std::move(action)});
 }
 

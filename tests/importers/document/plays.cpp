@@ -179,6 +179,31 @@ TEST_CASE("whatever a program asks of a body is written so that the same is read
   }
 }
 
+TEST_CASE("whatever a program starts is written so that the same is read") {
+  const StageDescription stage = walking();
+  const playing::Start faded{.weight = {{0, 0.5}}, .fade_in = {.seconds = 0.5}};
+  playing::Start counted = faded;
+  counted.clip = "wave";
+  counted.loop = Loop{LoopMode::once, 3};  // a count that means nothing
+  for (const playing::Start& start : {faded, counted})
+    for (const std::string name : {"wave", "walk"}) {
+      CAPTURE(name);
+      if (start.clip == "wave" && name == "walk") continue;
+      Stage told(stage), given(stage);
+      told.advance(0.3);
+      told.ask(name, start);
+      told.advance(0.2);
+      const std::string written = inputs_json(told.inputs());
+      const std::vector<TimedInput> read = parse_inputs(written, "i.json", stage);
+      CHECK(inputs_json(read) == written);
+      static_cast<void>(advance_with(given, read, told.time()));
+      const WorldMotion one = told.world(0), other = given.world(0);
+      CHECK(one.motion.pose.rotation.coeffs() == other.motion.pose.rotation.coeffs());
+      CHECK(one.motion.pose.position == other.motion.pose.position);
+      CHECK(one.motion.twist.angular == other.motion.twist.angular);
+    }
+}
+
 TEST_CASE("faults of inputs are told at their places") {
   CHECK(fault_says(input_faults(R"({"at": 1, "stop": {"play": "wlak"}})"),
                    "i.json:2:28: error: there is no play \"wlak\"; did you mean \"walk\"?"));

@@ -84,7 +84,7 @@ struct OfAction {
     if (start.reverse) fields.add("direction", "\"reverse\"");
     if (start.loop) {
       fields.add("loop", string_text(loop_word(start.loop->mode)));
-      fields.add("count", start.loop->count, 0);
+      if (start.loop->mode != LoopMode::once) fields.add("count", start.loop->count, 0);
     }
     if (!(start.speed == usual.speed)) fields.add("speed", keys_text(start.speed));
     if (!(start.weight == usual.weight)) fields.add("weight", keys_text(start.weight));
