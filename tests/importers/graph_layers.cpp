@@ -1,5 +1,7 @@
 // Where boxes and wires of a graph's picture go.
 
+#include <tweenfall/importers/graph_plot.h>
+
 #include "graph_picture/layers.h"
 
 #include "support.h"
@@ -63,4 +65,33 @@ TEST_CASE(
   const std::size_t from[] = {2, 0, 1};
   CHECK(fan.middle_of(from[wires[0]]) < fan.middle_of(from[wires[1]]));
   CHECK(fan.middle_of(from[wires[1]]) < fan.middle_of(from[wires[2]]));
+}
+
+TEST_CASE("what a machine's transitions say stays within the picture, however long it is") {
+  const auto waits = [](const std::string& word) {
+    return std::vector<GraphCondition>{{.kind = GraphCondition::Kind::event, .name = word},
+                                       {.kind = GraphCondition::Kind::time_in_state, .value = 0.5}};
+  };
+  for (const std::size_t count : {1U, 2U, 3U, 5U, 9U}) {
+    MachinePose machine{.start = "0", .states = {}};
+    for (std::size_t i = 0; i < count; ++i) {
+      machine.states.push_back({std::to_string(i), "pose"});
+      machine.transitions.push_back(
+          {.to = std::to_string(i), .when = waits(i % 2 == 0 ? "halt" : "whatever is to be waited for")});
+    }
+    const GraphDescription graph{.name = "figure", .poses = {{"pose", RestPose{}}, {"machine", machine}}};
+    const std::string svg = graph_svg({&graph, 1});
+    const auto number = [&](std::size_t from, const std::string& name) {
+      return std::stod(svg.substr(svg.find(" " + name + "=\"", from) + name.size() + 3));
+    };
+    const double width = number(0, "width");
+    std::size_t labels = 0;
+    for (std::size_t at = 0; (at = svg.find("fill-opacity=\"0.88\"", at)) != std::string::npos; ++at) {
+      const std::size_t rect = svg.rfind("<rect", at);
+      CHECK(number(rect, "x") >= 0);
+      CHECK(number(rect, "x") + number(rect, "width") <= width);
+      ++labels;
+    }
+    CHECK(labels == count);
+  }
 }

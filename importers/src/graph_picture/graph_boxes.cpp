@@ -75,8 +75,8 @@ Vec2 Arrow::at(double t) const {
   return (1 - t) * (1 - t) * from + 2 * t * (1 - t) * control + t * t * to;
 }
 
-Labels::Labels(std::vector<Rectangle> taken, std::vector<Arrow> arrows)
-    : taken_(std::move(taken)), arrows_(std::move(arrows)) {
+Labels::Labels(std::vector<Rectangle> taken, std::vector<Arrow> arrows, double left, double right)
+    : taken_(std::move(taken)), arrows_(std::move(arrows)), left_(left), right_(right) {
   for (const Arrow& arrow : arrows_) {
     std::vector<Vec2>& points = points_.emplace_back();
     for (int i = 0; i <= points_on_arrow; ++i) points.push_back(arrow.at(static_cast<double>(i) / points_on_arrow));
@@ -96,11 +96,15 @@ void Labels::draw(SvgWriter& svg, std::size_t arrow, const std::string& first, c
   const std::string one = shortened(first, widest), two = shortened(second, widest);
   const double width = 1.1 * std::max(text_width(one), text_width(two)) + 8, height = 30;
   const Arrow& own = arrows_[arrow];
-  Rectangle best = around(own.at(0.5), width, height);
+  const auto beside = [&](Vec2 center) {
+    center.x() = std::max(left_ + width / 2, std::min(center.x(), right_ - width / 2));
+    return around(center, width, height);
+  };
+  Rectangle best = beside(own.at(0.5));
   std::size_t fewest = arrows_.size();
   for (const double shift : {0.0, -16.0, 16.0, -32.0, 32.0, -48.0, 48.0})
     for (const double t : {0.5, 0.45, 0.55, 0.4, 0.6, 0.35, 0.65, 0.3, 0.7, 0.25, 0.75, 0.2, 0.8, 0.15, 0.85}) {
-      const Rectangle place = around(own.at(t) + Vec2(0, shift), width, height);
+      const Rectangle place = beside(own.at(t) + Vec2(0, shift));
       if (fewest == 0 || (shift != 0 && fewest < arrows_.size())) break;  // better crossed than beside its own
       if (std::ranges::any_of(taken_, [&](const Rectangle& other) { return place.overlaps(other); })) continue;
       const std::size_t others = crossed(place, arrow);

@@ -44,7 +44,8 @@ void draw_arrow(SvgWriter& svg, const Arrow& arrow);
 /// Texts that stand in each other's way nowhere, each on an arrow of its own and, where there is room, on no other's.
 class Labels {
  public:
-  Labels(std::vector<Rectangle> taken, std::vector<Arrow> arrows);
+  /// @param left, right  between which they stay, px
+  Labels(std::vector<Rectangle> taken, std::vector<Arrow> arrows, double left, double right);
 
   /// Two lines near the middle of an arrow, the second paler.
   void draw(SvgWriter& svg, std::size_t arrow, const std::string& first, const std::string& second);
@@ -55,6 +56,7 @@ class Labels {
   std::vector<Rectangle> taken_;
   std::vector<Arrow> arrows_;
   std::vector<std::vector<Vec2>> points_;  // on each arrow
+  double left_, right_;
 };
 
 }  // namespace tweenfall::plotting

@@ -101,7 +101,7 @@ void MachinePicture::draw(SvgWriter& svg, double left, double top) const {
   std::vector<Arrow> arrows;
   arrows.reserve(ways.size());
   for (const Way& way : ways) arrows.push_back(way.arrow);
-  Labels labels(boxes, arrows);
+  Labels labels(boxes, arrows, left, left + width());
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const bool from_a_state =
         std::ranges::any_of(boxes, [&](const Rectangle& each) { return around(arrows[i].from, 1, 1).overlaps(each); });

@@ -103,6 +103,34 @@ std::string nodes_table(const StageDescription& stage) {
   return table.text(styled_output());
 }
 
+std::string names_text(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::string play_text(const Play& play, const Clip& clip) {
+  std::string text = (play.name.empty() ? "from " : play.name + " from ") + brief_text(play.at) + " s";
+  if (!play.speed.is_constant())
+    text += " at a speed that has keys";
+  else if (play.speed.at(0) != 1)
+    text += " at " + brief_text(play.speed.at(0)) + " x";
+  if (play.from != 0 || play.to)
+    text += ", " + brief_text(play.from) + " s to " + brief_text(play.to.value_or(clip.duration)) + " s of it";
+  if (play.offset != 0) text += ", " + brief_text(play.offset) + " s ahead";
+  if (play.reverse) text += ", in reverse";
+  if (play.loop) text += ", " + loop_text(*play.loop);
+  if (!play.weight.knots().empty())
+    text += ", weight by keys";
+  else if (play.weight.value(0) != 1)
+    text += ", weight " + brief_text(play.weight.value(0));
+  if (play.fade_in.seconds > 0) text += ", fades in " + brief_text(play.fade_in.seconds) + " s";
+  if (play.fade_out.seconds > 0) text += ", fades out " + brief_text(play.fade_out.seconds) + " s";
+  if (play.fill != Fill{}) text += ", fill " + std::string(fill_words[static_cast<std::size_t>(play.fill)]);
+  if (!play.mask.empty()) text += ", on " + names_text(play.mask);
+  return text;
+}
+
 std::string clips_table(const StageDescription& stage) {
   Table table(counted(stage.clips.size(), "clip"),
               {"name", ">duration, s", "loop", ">tracks", ">keys", ">events", "plays"});
@@ -111,19 +139,8 @@ std::string clips_table(const StageDescription& stage) {
     std::size_t keys = 0;
     for (const Track& track : clip.tracks) keys += survey(track, clip).keys;
     std::string plays;
-    for (const Play& play : stage.plays) {
-      if (play.clip != i) continue;
-      plays += (plays.empty() ? "from " : ", from ") + brief_text(play.at) + " s";
-      if (!play.speed.is_constant())
-        plays += " at a speed that has keys";
-      else if (play.speed.at(0) != 1)
-        plays += " at " + brief_text(play.speed.at(0)) + " x";
-      if (play.from != 0 || play.to)
-        plays += ", " + brief_text(play.from) + " s to " + brief_text(play.to.value_or(clip.duration)) + " s of it";
-      if (play.reverse) plays += ", in reverse";
-      if (play.loop) plays += ", " + loop_text(*play.loop);
-      if (play.fill != Fill{}) plays += ", fill " + std::string(fill_words[static_cast<std::size_t>(play.fill)]);
-    }
+    for (const Play& play : stage.plays)
+      if (play.clip == i) plays += (plays.empty() ? "" : "; ") + play_text(play, clip);
     table.row({clip.name, brief_text(clip.duration), loop_text(clip.loop), std::to_string(clip.tracks.size()),
                std::to_string(keys), std::to_string(clip.events.size()), plays});
   }
@@ -268,6 +285,25 @@ std::string poses_table(const GraphDescription& graph) {
   return table.text(styled_output());
 }
 
+/// Of layers that reach only some nodes.
+std::string masks_table(const GraphDescription& graph) {
+  Table table("masks of the graph " + graph.name, {"layers", "layer", "nodes", ">share"});
+  for (const GraphPose& pose : graph.poses)
+    if (const auto* layers = std::get_if<LayersPose>(&pose.operation))
+      for (const LayersPose::Layer& layer : layers->layers)
+        for (const MaskPart& part : layer.mask)
+          table.row({pose.name, layer.pose, part.joints + (part.below ? " and below" : ""), brief_text(part.weight)});
+  return table.empty() ? "" : table.text(styled_output());
+}
+
+std::string reactions_table(const GraphDescription& graph) {
+  Table table("what the graph " + graph.name + " does on events", {"event", "does"});
+  for (const GraphReaction& reaction : graph.reactions)
+    table.row({reaction.event, reaction.value ? "sets " + reaction.name + " to " + brief_text(*reaction.value)
+                                              : "sends " + reaction.name});
+  return table.empty() ? "" : table.text(styled_output());
+}
+
 std::string parameters_table(const GraphDescription& graph) {
   Table table("parameters of the graph " + graph.name, {"name", ">starts as", ">half-life, s", "comes from"});
   for (const GraphParameter& parameter : graph.parameters) {
@@ -294,7 +330,7 @@ std::string transitions_table(const GraphPose& pose, const MachinePose& machine)
 std::string graph_tables(const StageDescription& stage) {
   std::string out;
   for (const GraphDescription& graph : stage.graphs) {
-    out += parameters_table(graph) + poses_table(graph);
+    out += parameters_table(graph) + reactions_table(graph) + poses_table(graph) + masks_table(graph);
     for (const GraphPose& pose : graph.poses)
       if (const auto* machine = std::get_if<MachinePose>(&pose.operation)) out += transitions_table(pose, *machine);
   }
