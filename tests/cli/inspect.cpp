@@ -109,6 +109,6 @@ TEST_CASE("inspect shows how clips are played, which nodes layers reach, and wha
   REQUIRE_MESSAGE(ran.code == 0, ran.err);
   CHECK(line_of(ran.out, "wave  ")
             .ends_with("hello from 0.5 s, weight 0.75, fades in 0.25 s, on ar*; from 0 s, weight by keys"));
-  CHECK(words(line_of(ran.out, "all  wave")) == std::vector<std::string>{"all", "wave", "hip", "and", "below", "1"});
+  CHECK(words(line_of(ran.out, "all     wave")) == std::vector<std::string>{"all", "wave", "hip", "and", "below", "1"});
   CHECK(line_of(ran.out, "up  ").ends_with("sets speed to 2"));
 }
