@@ -19,6 +19,7 @@ using blocks::Halves;
 using blocks::lane_count;
 using blocks::Lanes;
 using blocks::Lanes3;
+using blocks::LanesFrom;
 using blocks::scatter;
 using blocks::Two;
 using blocks::TwoMasks;
@@ -69,6 +70,17 @@ TWEENFALL_LANES bool any_bit(const Halves<Half>& numbers) {
   return any_of(bits_of(numbers));
 }
 
+template <class Register, int first>
+TWEENFALL_LANES bool any_bit(const LanesFrom<Register, first>& numbers) {
+  return any_bit(numbers.of);
+}
+
+/// The part of figures that registers hold.
+template <class Register>
+constexpr std::size_t part_of = 0;
+template <class Register, int first>
+constexpr std::size_t part_of<LanesFrom<Register, first>> = first* most_parts / lane_count;
+
 constexpr std::uint32_t rows_of_joint = FigureJoint::most_rows;
 
 /// Calls the version made for this number of rows: of a point alone, or with some bounds; so the compiler knows it.
@@ -98,6 +110,7 @@ struct FigureFactors {
   using Number = Wide<Register>;
   using Vector = Wide3<Register>;
   using Which = typename Number::Which;
+  static constexpr std::size_t part = part_of<Register>;
 
   struct Ends {
     Vector linear_a, angular_a, linear_b, angular_b;
@@ -118,6 +131,10 @@ struct FigureFactors {
   TWEENFALL_LANES static Number size_of(const Number& value) { return greater(value, -value); }
   TWEENFALL_LANES static FigureRow* rows_of(const Figures& figures, std::uint32_t place) {
     return figures.rows + rows_of_joint * place;
+  }
+  template <class Joint>
+  TWEENFALL_LANES static auto& in_of(Joint& joint) {
+    return joint.in[part];
   }
   TWEENFALL_LANES static bool is_point(const FigureJoint& joint, std::uint32_t row) { return joint.point && row < 3; }
 
@@ -262,19 +279,20 @@ struct FigureFactors {
       FigureJoint& joint = figures.joints[place];
       const FigureRow* rows = rows_of(figures, place);
       std::uint8_t count = joint.holds;
-      for (std::uint8_t row = 0; row < count; ++row) joint.slots[row] = row;
+      for (std::uint8_t row = 0; row < count; ++row) in_of(joint).slots[row] = row;
       for (std::uint8_t row = joint.holds; row < joint.count; ++row)
-        if (any(rows[row].in)) joint.slots[count++] = row;
-      joint.in_count = count;
-      joint.value = value;
-      joint.diagonal = block;
+        if (any(rows[row].in)) in_of(joint).slots[count++] = row;
+      in_of(joint).count = count;
+      in_of(joint).value = value;
+      in_of(joint).diagonal = block;
       value += count;
       block += std::uint32_t{count} * count;
     }
     for (std::uint32_t place = 0; place < figures.joint_count; ++place)
       for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n) {
-        figures.links[n].block = block;
-        block += std::uint32_t{figures.joints[figures.links[n].place].in_count} * figures.joints[place].in_count;
+        figures.links[n].blocks[part] = block;
+        block +=
+            std::uint32_t{in_of(figures.joints[figures.links[n].place]).count} * in_of(figures.joints[place]).count;
       }
   }
 
@@ -285,11 +303,11 @@ struct FigureFactors {
     const FigureRow *rows = rows_of(figures, place), *others = rows_of(figures, later);
     const Number mass = figures.bodies[by_b ? own.b : own.a].inverse_mass;
     const bool opposite = by_b != later_by_b;
-    const std::uint32_t count = own.in_count, points = own.point ? 3 : 0, later_points = other.point ? 3 : 0;
+    const std::uint32_t count = in_of(own).count, points = own.point ? 3 : 0, later_points = other.point ? 3 : 0;
     const auto put = [&](std::uint32_t i, std::uint32_t k, Number sum) __attribute__((always_inline)) {
       if (opposite) sum = -sum;
-      if (i >= other.holds) sum = sum * others[other.slots[i]].in;
-      if (k >= own.holds) sum = sum * rows[own.slots[k]].in;
+      if (i >= other.holds) sum = sum * others[in_of(other).slots[i]].in;
+      if (k >= own.holds) sum = sum * rows[in_of(own).slots[k]].in;
       if (!first) sum = Number(block[i * count + k]) + sum;
       sum.put(block[i * count + k]);
     };
@@ -301,7 +319,7 @@ struct FigureFactors {
           if (k == 0) sums.x = sums.x + mass;
           if (k == 1) sums.y = sums.y + mass;
           if (k == 2) sums.z = sums.z + mass;
-        } else if (const std::uint32_t slot = own.slots[k]; !own.turning[slot]) {
+        } else if (const std::uint32_t slot = in_of(own).slots[k]; !own.turning[slot]) {
           sums = sums + mass * Vector(by_b ? rows[slot].linear_b : rows[slot].linear_a);
         }
         put(0, k, sums.x);
@@ -309,8 +327,8 @@ struct FigureFactors {
         put(2, k, sums.z);
       }
     }
-    for (std::uint32_t i = later_points; i < other.in_count; ++i) {
-      const std::uint32_t row = other.slots[i];
+    for (std::uint32_t i = later_points; i < in_of(other).count; ++i) {
+      const std::uint32_t row = in_of(other).slots[i];
       const Vector turn = later_by_b ? others[row].turn_b : others[row].turn_a;
       if (points != 0) {
         Number sums[3] = {dot(turn, spins[0]), dot(turn, spins[1]), dot(turn, spins[2])};
@@ -325,7 +343,8 @@ struct FigureFactors {
         put(i, 2, sums[2]);
       }
       for (std::uint32_t k = points; k < count; ++k)
-        put(i, k, with_push(dot(turn, spins[k]), mass, other, others, row, later_by_b, own, rows, own.slots[k], by_b));
+        put(i, k,
+            with_push(dot(turn, spins[k]), mass, other, others, row, later_by_b, own, rows, in_of(own).slots[k], by_b));
     }
   }
 
@@ -333,7 +352,7 @@ struct FigureFactors {
   TWEENFALL_LANES static void fill_point(const FigureJoint& joint, FigureRow* rows, const Number& mass,
                                          const Vector* spins_a, const Vector* spins_b, Lanes* diagonal) {
     const Vector arm_a = joint.arm_a, arm_b = joint.arm_b;
-    const std::uint32_t count = joint.in_count;
+    const std::uint32_t count = in_of(joint).count;
     const auto end = [&](std::uint32_t i, const Number& sum) __attribute__((always_inline)) {
       // Lanes without a figure have no row.
       FigureRow& row = rows[i];
@@ -356,26 +375,27 @@ struct FigureFactors {
     FigureJoint& joint = figures.joints[place];
     FigureRow* rows = rows_of(figures, place);
     const FigureBody &a = figures.bodies[joint.a], &b = figures.bodies[joint.b];
-    const std::uint32_t count = joint.in_count, points = joint.point ? 3 : 0;
+    const FigureRowsIn& in = in_of(joint);
+    const std::uint32_t count = in.count, points = joint.point ? 3 : 0;
     Vector spins_a[rows_of_joint], spins_b[rows_of_joint];
-    Lanes* diagonal = figures.blocks + joint.diagonal;
+    Lanes* diagonal = figures.blocks + in.diagonal;
     if (points != 0) {
       spins_of_point(a.inverse_inertia, joint.arm_a, spins_a);
       spins_of_point(b.inverse_inertia, joint.arm_b, spins_b);
       fill_point(joint, rows, Number(a.inverse_mass) + b.inverse_mass, spins_a, spins_b, diagonal);
     }
     for (std::uint32_t i = points; i < count; ++i) {
-      FigureRow& row = rows[joint.slots[i]];
+      FigureRow& row = rows[in.slots[i]];
       const Vector turn_a = row.turn_a, turn_b = row.turn_b;
       spins_a[i] = a.inverse_inertia * turn_a;
       spins_b[i] = b.inverse_inertia * turn_b;
       for (std::uint32_t k = 0; k <= i; ++k) {
         Number sum = dot(turn_a, spins_a[k]) + dot(turn_b, spins_b[k]);
-        sum = with_push(sum, a.inverse_mass, joint, rows, joint.slots[i], false, joint, rows, joint.slots[k], false);
-        sum = with_push(sum, b.inverse_mass, joint, rows, joint.slots[i], true, joint, rows, joint.slots[k], true);
+        sum = with_push(sum, a.inverse_mass, joint, rows, in.slots[i], false, joint, rows, in.slots[k], false);
+        sum = with_push(sum, b.inverse_mass, joint, rows, in.slots[i], true, joint, rows, in.slots[k], true);
         if (k < i) {
           if (i >= joint.holds) sum = sum * row.in;
-          if (k >= joint.holds) sum = sum * rows[joint.slots[k]].in;
+          if (k >= joint.holds) sum = sum * rows[in.slots[k]].in;
           sum.put(diagonal[i * count + k]);
           continue;
         }
@@ -389,7 +409,7 @@ struct FigureFactors {
     for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n) {
       const FigureLink& link = figures.links[n];
       const FigureJoint& other = figures.joints[link.place];
-      Lanes* block = figures.blocks + link.block;
+      Lanes* block = figures.blocks + link.blocks[part];
       bool first = true;
       for (const bool by_b : {false, true})
         for (const bool later_by_b : {false, true}) {
@@ -399,7 +419,7 @@ struct FigureFactors {
           first = false;
         }
       if (!first) continue;
-      for (std::uint32_t i = 0; i < count * other.in_count; ++i) nothing().put(block[i]);
+      for (std::uint32_t i = 0; i < count * in_of(other).count; ++i) nothing().put(block[i]);
     }
   }
 
@@ -407,8 +427,8 @@ struct FigureFactors {
   TWEENFALL_LANES static void factor_diagonal(Figures& figures, std::uint32_t place) {
     const FigureJoint& joint = figures.joints[place];
     const FigureRow* rows = rows_of(figures, place);
-    const std::uint32_t count = known != 0 ? known : joint.in_count;
-    Lanes* block = figures.blocks + joint.diagonal;
+    const std::uint32_t count = known != 0 ? known : in_of(joint).count;
+    Lanes* block = figures.blocks + in_of(joint).diagonal;
     Number redundant = nothing();
     for (std::uint32_t i = 0; i < count; ++i)
       for (std::uint32_t k = 0; k <= i; ++k) {
@@ -418,13 +438,13 @@ struct FigureFactors {
           (sum * block[k * count + k]).put(block[i * count + k]);
           continue;
         }
-        const Which news = sum > Number(new_enough) * rows[joint.slots[i]].inverse;
+        const Which news = sum > Number(new_enough) * rows[in_of(joint).slots[i]].inverse;
         const Number root_of_sum = root(select(news, sum, Number(1.0)));
         const Number its = select(news, Number(1.0) / root_of_sum, nothing());
         its.put(block[i * count + i]);
         redundant = greater(redundant, Number(1.0) - one_if(its > nothing()));
       }
-    figures.silent = figures.silent || any(redundant);
+    figures.parts[part].silent = figures.parts[part].silent || any(redundant);
   }
 
   /// Eliminates a joint: subtracts its effect from the later ones. @param known  rows of the joint, or 0 for any
@@ -432,35 +452,37 @@ struct FigureFactors {
   template <std::uint32_t known>
   TWEENFALL_LANES static void eliminate(Figures& figures, std::uint32_t place) {
     const FigureJoint& joint = figures.joints[place];
-    const std::uint32_t columns = known != 0 ? known : joint.in_count;
+    const std::uint32_t columns = known != 0 ? known : in_of(joint).count;
     if (columns == 0) return;
-    const Lanes* diagonal = figures.blocks + joint.diagonal;
+    const Lanes* diagonal = figures.blocks + in_of(joint).diagonal;
     const std::uint32_t begin = figures.firsts[place], end = figures.firsts[place + 1];
     for (std::uint32_t n = begin; n < end; ++n) {
-      Lanes* block = figures.blocks + figures.links[n].block;
-      for (std::uint32_t i = 0; i < figures.joints[figures.links[n].place].in_count; ++i)
+      Lanes* block = figures.blocks + figures.links[n].blocks[part];
+      for (std::uint32_t i = 0; i < in_of(figures.joints[figures.links[n].place]).count; ++i)
         solve_lower(diagonal, block + i * columns, columns);
     }
     for (std::uint32_t n = begin; n < end; ++n) {
       const std::uint32_t column = figures.links[n].place;
-      const Lanes* right = figures.blocks + figures.links[n].block;
-      const std::uint32_t others = figures.joints[column].in_count;
+      const Lanes* right = figures.blocks + figures.links[n].blocks[part];
+      const std::uint32_t others = in_of(figures.joints[column]).count;
       std::uint32_t target = figures.firsts[column];
       for (std::uint32_t p = n; p < end; ++p) {
-        const Lanes* left = figures.blocks + figures.links[p].block;
-        Lanes* into = figures.blocks + figures.joints[column].diagonal;
+        const Lanes* left = figures.blocks + figures.links[p].blocks[part];
+        Lanes* into = figures.blocks + in_of(figures.joints[column]).diagonal;
         if (p > n) {
           while (figures.links[target].place != figures.links[p].place) ++target;
-          into = figures.blocks + figures.links[target].block;
+          into = figures.blocks + figures.links[target].blocks[part];
         }
-        const std::uint32_t rows = figures.joints[figures.links[p].place].in_count;
-        for (std::uint32_t i = 0; i < rows; ++i) {
-          const std::uint32_t end_of_row = p == n ? i + 1 : others;
-          for (std::uint32_t k = 0; k < end_of_row; ++k) {
-            Number sum = Number(left[i * columns]) * Number(right[k * columns]);
-            for (std::uint32_t m = 1; m < columns; ++m)
-              sum = sum + Number(left[i * columns + m]) * Number(right[k * columns + m]);
-            (Number(into[i * others + k]) - sum).put(into[i * others + k]);
+        const std::uint32_t rows = in_of(figures.joints[figures.links[p].place]).count;
+        for (std::uint32_t i = 0; i < rows; ++i, left += columns, into += others) {
+          Number held[known != 0 ? known : rows_of_joint];
+          for (std::uint32_t m = 0; m < columns; ++m) held[m] = left[m];
+          const Lanes* factor = right;
+          for (Lanes *to = into, *end_of_row = into + (p == n ? i + 1 : others); to != end_of_row; ++to) {
+            Number sum = held[0] * Number(factor[0]);
+            for (std::uint32_t m = 1; m < columns; ++m) sum = sum + held[m] * Number(factor[m]);
+            (Number(*to) - sum).put(*to);
+            factor += columns;
           }
         }
       }
@@ -468,13 +490,13 @@ struct FigureFactors {
   }
 
   TWEENFALL_LANES static void factor(Figures& figures) {
-    if (!figures.stale) return;
-    figures.stale = figures.silent = false;
+    if (!figures.parts[part].stale) return;
+    figures.parts[part].stale = figures.parts[part].silent = false;
     lay_out(figures);
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) fill(figures, place);
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
-      TWEENFALL_OF_ROWS(figures.joints[place].in_count, factor_diagonal, figures, place)
-      TWEENFALL_OF_ROWS(figures.joints[place].in_count, eliminate, figures, place)
+      TWEENFALL_OF_ROWS(in_of(figures.joints[place]).count, factor_diagonal, figures, place)
+      TWEENFALL_OF_ROWS(in_of(figures.joints[place]).count, eliminate, figures, place)
     }
   }
 
@@ -497,57 +519,58 @@ struct FigureFactors {
   template <std::uint32_t known>
   TWEENFALL_LANES static void solve_down(Figures& figures, std::uint32_t place) {
     const FigureJoint& joint = figures.joints[place];
-    const std::uint32_t columns = known != 0 ? known : joint.in_count;
-    Lanes* own = figures.values + joint.value;
-    solve_lower(figures.blocks + joint.diagonal, own, columns);
+    const std::uint32_t columns = known != 0 ? known : in_of(joint).count;
+    Lanes* own = figures.values + in_of(joint).value;
+    solve_lower(figures.blocks + in_of(joint).diagonal, own, columns);
     for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n) {
       const FigureJoint& other = figures.joints[figures.links[n].place];
-      const Lanes* block = figures.blocks + figures.links[n].block;
-      Lanes* its = figures.values + other.value;
-      const std::uint32_t rows = other.in_count;
-      for (std::uint32_t i = 0; i < rows; ++i) {
-        Number sum = its[i];
-        for (std::uint32_t k = 0; k < columns; ++k) sum = sum - Number(block[i * columns + k]) * Number(own[k]);
-        sum.put(its[i]);
+      const Lanes* block = figures.blocks + figures.links[n].blocks[part];
+      Lanes* its = figures.values + in_of(other).value;
+      Number held[known != 0 ? known : rows_of_joint];
+      for (std::uint32_t k = 0; k < columns; ++k) held[k] = own[k];
+      for (const Lanes* end = its + in_of(other).count; its != end; ++its, block += columns) {
+        Number sum = *its;
+        for (std::uint32_t k = 0; k < columns; ++k) sum = sum - Number(block[k]) * held[k];
+        sum.put(*its);
       }
     }
   }
   template <std::uint32_t known>
   TWEENFALL_LANES static void solve_up(Figures& figures, std::uint32_t place) {
     const FigureJoint& joint = figures.joints[place];
-    const std::uint32_t columns = known != 0 ? known : joint.in_count;
-    Lanes* own = figures.values + joint.value;
+    const std::uint32_t columns = known != 0 ? known : in_of(joint).count;
+    Lanes* own = figures.values + in_of(joint).value;
     for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n) {
       const FigureJoint& other = figures.joints[figures.links[n].place];
-      const Lanes* block = figures.blocks + figures.links[n].block;
-      const Lanes* its = figures.values + other.value;
-      const std::uint32_t rows = other.in_count;
-      for (std::uint32_t k = 0; k < columns; ++k) {
-        Number sum = own[k];
-        for (std::uint32_t i = 0; i < rows; ++i) sum = sum - Number(block[i * columns + k]) * Number(its[i]);
-        sum.put(own[k]);
-      }
+      const Lanes* block = figures.blocks + figures.links[n].blocks[part];
+      const Lanes* its = figures.values + in_of(other).value;
+      Number sums[known != 0 ? known : rows_of_joint];
+      for (std::uint32_t k = 0; k < columns; ++k) sums[k] = own[k];
+      for (const Lanes* end = its + in_of(other).count; its != end; ++its, block += columns)
+        for (std::uint32_t k = 0; k < columns; ++k) sums[k] = sums[k] - Number(block[k]) * Number(*its);
+      for (std::uint32_t k = 0; k < columns; ++k) sums[k].put(own[k]);
     }
-    solve_upper(figures.blocks + joint.diagonal, own, columns);
+    solve_upper(figures.blocks + in_of(joint).diagonal, own, columns);
   }
   TWEENFALL_LANES static void solve_values(Figures& figures) {
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
-      TWEENFALL_OF_ROWS(figures.joints[place].in_count, solve_down, figures, place)
+      TWEENFALL_OF_ROWS(in_of(figures.joints[place]).count, solve_down, figures, place)
     }
     for (std::uint32_t place = figures.joint_count; place-- > 0;) {
-      TWEENFALL_OF_ROWS(figures.joints[place].in_count, solve_up, figures, place)
+      TWEENFALL_OF_ROWS(in_of(figures.joints[place]).count, solve_up, figures, place)
     }
   }
   /// Applies the resulting impulses to the bodies.
   TWEENFALL_LANES static void give_values(Figures& figures) {
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
       const FigureJoint& joint = figures.joints[place];
+      const FigureRowsIn& in = in_of(joint);
       const FigureRow* rows = rows_of(figures, place);
-      const Lanes* values = figures.values + joint.value;
+      const Lanes* values = figures.values + in.value;
       Sum sum{no_vector(), no_vector(), no_vector(), no_vector()};
       if (joint.point) sum = sum_of_point(joint, {values[0], values[1], values[2]});
-      for (std::uint32_t i = joint.point ? 3 : 0; i < joint.in_count; ++i)
-        add(rows[joint.slots[i]], joint.turning[joint.slots[i]], values[i], sum);
+      for (std::uint32_t i = joint.point ? 3 : 0; i < in.count; ++i)
+        add(rows[in.slots[i]], joint.turning[in.slots[i]], values[i], sum);
       give_to(figures, joint, sum);
     }
   }

@@ -101,7 +101,7 @@ void FigureGroup::begin(const FigurePlan& plan, const Shape& shape, bool whole) 
   }
   firsts_.assign(plan.firsts().begin(), plan.firsts().end());
   links_.resize(plan.later().size());
-  for (std::size_t i = 0; i < links_.size(); ++i) links_[i] = {plan.later()[i], 0};
+  for (std::size_t i = 0; i < links_.size(); ++i) links_[i] = {plan.later()[i], {}};
   lanes_.body_count = bodies;
   lanes_.joint_count = static_cast<std::uint32_t>(count);
   add(plan);
@@ -292,7 +292,7 @@ void FigureGroup::end_load() {
   if (blocks_.size() < blocks) blocks_.resize(blocks);
   if (values_.size() < values) values_.resize(values);
   point_at_own();
-  lanes_.stale = true;
+  for (FigurePart& part : lanes_.parts) part.stale = true;
 }
 
 void FigureGroup::unload(std::uint32_t place, int lane, std::array<double, most_rows>& impulses, double kept) const {

@@ -34,11 +34,13 @@ struct FigureWork : FigureWriting<Register> {
   using Factors::factor;
   using Factors::give_to;
   using Factors::give_values;
+  using Factors::in_of;
   using Factors::inverse_of;
   using Factors::lack_of;
   using Factors::no_vector;
   using Factors::nothing;
   using Factors::one_if;
+  using Factors::part;
   using Factors::point_speed;
   using Factors::read;
   using Factors::rows_of;
@@ -56,12 +58,12 @@ struct FigureWork : FigureWriting<Register> {
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
       const FigureJoint& joint = figures.joints[place];
       FigureRow* rows = rows_of(figures, place);
-      for (std::uint32_t i = 0; i < joint.in_count; ++i) {
-        const Number its = figures.blocks[joint.diagonal + i * joint.in_count + i];
-        FigureRow& row = rows[joint.slots[i]];
+      for (std::uint32_t i = 0; i < in_of(joint).count; ++i) {
+        const Number its = figures.blocks[in_of(joint).diagonal + i * in_of(joint).count + i];
+        FigureRow& row = rows[in_of(joint).slots[i]];
         const Number dropped = live * select(its > nothing(), nothing(), row.impulse);
         if (!any(one_if(size_of(dropped) > nothing()))) continue;
-        apply(figures, joint, joint.slots[i], row, -dropped);
+        apply(figures, joint, in_of(joint).slots[i], row, -dropped);
         (Number(row.impulse) - dropped).put(row.impulse);
       }
     }
@@ -73,12 +75,12 @@ struct FigureWork : FigureWriting<Register> {
 
   /// In some lanes, solves all rows that are `in` for the speeds that they want. @return lanes in which one has bounds
   TWEENFALL_LANES static Number solve_in(Figures& figures, const Number& live, bool moving) {
-    if (figures.silent) drop_silent(figures, live);
+    if (figures.parts[part].silent) drop_silent(figures, live);
     Number bounded = nothing();
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
       const FigureJoint& joint = figures.joints[place];
       const FigureRow* rows = rows_of(figures, place);
-      Lanes* values = figures.values + joint.value;
+      Lanes* values = figures.values + in_of(joint).value;
       const Ends ends = ends_of(figures, joint);
       if (joint.point) {
         const Vector speed = point_speed(joint, ends);
@@ -86,8 +88,8 @@ struct FigureWork : FigureWriting<Register> {
         (live * wanted_of(rows[1], speed.y, moving)).put(values[1]);
         (live * wanted_of(rows[2], speed.z, moving)).put(values[2]);
       }
-      for (std::uint32_t i = joint.point ? 3 : 0; i < joint.in_count; ++i) {
-        const std::uint32_t slot = joint.slots[i];
+      for (std::uint32_t i = joint.point ? 3 : 0; i < in_of(joint).count; ++i) {
+        const std::uint32_t slot = in_of(joint).slots[i];
         const FigureRow& row = rows[slot];
         const Number value = live * wanted_of(row, speed_of(row, joint.turning[slot], ends), moving);
         if (slot < joint.holds) {
@@ -103,9 +105,9 @@ struct FigureWork : FigureWriting<Register> {
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
       const FigureJoint& joint = figures.joints[place];
       FigureRow* rows = rows_of(figures, place);
-      for (std::uint32_t i = 0; i < joint.in_count; ++i) {
-        FigureRow& row = rows[joint.slots[i]];
-        (Number(row.impulse) + figures.values[joint.value + i]).put(row.impulse);
+      for (std::uint32_t i = 0; i < in_of(joint).count; ++i) {
+        FigureRow& row = rows[in_of(joint).slots[i]];
+        (Number(row.impulse) + figures.values[in_of(joint).value + i]).put(row.impulse);
       }
     }
     return bounded;
@@ -129,7 +131,7 @@ struct FigureWork : FigureWriting<Register> {
         changed = greater(changed, enters);
       }
     }
-    figures.stale = figures.stale || any(changed);
+    figures.parts[part].stale = figures.parts[part].stale || any(changed);
     return changed;
   }
 
@@ -154,7 +156,7 @@ struct FigureWork : FigureWriting<Register> {
         changed = greater(changed, leaves);
       }
     }
-    figures.stale = figures.stale || any(changed);
+    figures.parts[part].stale = figures.parts[part].stale || any(changed);
     return changed;
   }
 
@@ -192,7 +194,7 @@ struct FigureWork : FigureWriting<Register> {
         select(its > nothing(), nothing(), row.in).put(row.in);
       }
     }
-    figures.stale = true;
+    figures.parts[part].stale = true;
     factor(figures);
     static_cast<void>(solve_in(figures, live, moving));
     for (int pass = 0; pass < most_passes; ++pass) {
@@ -285,7 +287,7 @@ struct FigureWork : FigureWriting<Register> {
         FigureRow& row = rows[i];
         const Number its = of_what_holds ? nothing() : Number(row.present) * one_if(size_of(row.left) > nothing());
         select(row.bounded > nothing(), its, row.in).put(row.in);
-        figures.stale = true;
+        figures.parts[part].stale = true;
       }
     }
     factor(figures);
@@ -293,11 +295,11 @@ struct FigureWork : FigureWriting<Register> {
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
       const FigureJoint& joint = figures.joints[place];
       const FigureRow* rows = rows_of(figures, place);
-      for (std::uint32_t i = 0; i < joint.in_count; ++i) {
-        const FigureRow& row = rows[joint.slots[i]];
+      for (std::uint32_t i = 0; i < in_of(joint).count; ++i) {
+        const FigureRow& row = rows[in_of(joint).slots[i]];
         const Number left = row.left * Number(row.in);
         most = greater(most, size_of(left));
-        (left * live).put(figures.values[joint.value + i]);
+        (left * live).put(figures.values[in_of(joint).value + i]);
       }
     }
     most.put(widest);
@@ -318,7 +320,7 @@ struct FigureWork : FigureWriting<Register> {
         nothing().put(row.impulse);
         if (i >= joint.holds) {
           const Number held = Number(1.0) - Number(row.bounded);
-          figures.stale = figures.stale || any(row.in * Number(row.bounded));
+          figures.parts[part].stale = figures.parts[part].stale || any(row.in * Number(row.bounded));
           (row.in * held).put(row.in);
           (row.present * held).put(row.present);
         }
@@ -351,26 +353,38 @@ struct FigureWork : FigureWriting<Register> {
   target void work##_##name Given {                                        \
     Figures own = figures;                                                 \
     FigureWork<Numbers>::work given;                                       \
-    figures.stale = own.stale;                                             \
-    figures.silent = own.silent;                                           \
   }
-#define TWEENFALL_FIGURE_KERNELS(name, Numbers, target)                                                              \
+/// What solves: all lanes at once, or in two parts, of which the second is often empty.
+#define TWEENFALL_FIGURE_SOLVER(name, First, Second, target, work, Given, given) \
+  target void work##_##name Given {                                              \
+    Figures own = figures;                                                       \
+    FigureWork<First>::work given;                                               \
+    if constexpr (part_of<Second> != 0)                                          \
+      if (figures.used > lane_count / 2) FigureWork<Second>::work given;         \
+    figures.parts = own.parts;                                                   \
+  }
+#define TWEENFALL_FIGURE_KERNELS(name, Numbers, First, Second, target)                                               \
   TWEENFALL_FIGURE_KERNEL(name, Numbers, target, write_all, (Figures & figures, const WriteRule& rule), (own, rule)) \
   TWEENFALL_FIGURE_KERNEL(name, Numbers, target, warm_start, (Figures & figures), (own))                             \
-  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, solve, (Figures & figures, bool moving), (own, moving))             \
+  TWEENFALL_FIGURE_SOLVER(name, First, Second, target, solve, (Figures & figures, bool moving), (own, moving))       \
   TWEENFALL_FIGURE_KERNEL(name, Numbers, target, moved, (Figures & figures), (own))                                  \
-  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, close,                                                              \
+  TWEENFALL_FIGURE_SOLVER(name, First, Second, target, close,                                                        \
                           (Figures & figures, bool of_what_holds, const Lanes& live, Lanes& widest),                 \
                           (own, of_what_holds, live, widest))                                                        \
-  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, hold_only, (Figures & figures), (own))                              \
+  TWEENFALL_FIGURE_SOLVER(name, First, Second, target, hold_only, (Figures & figures), (own))                        \
   TWEENFALL_FIGURE_KERNEL(name, Numbers, target, add_up, (Figures & figures), (own))                                 \
   constexpr FigureKernels name = {write_all_##name, warm_start_##name, solve_##name, moved_##name,                   \
                                   close_##name,     hold_only_##name,  add_up_##name};
 
-TWEENFALL_FIGURE_KERNELS(plain_figures, Halves<Halves<Two>>, )
+constexpr int middle = lane_count / 2;
+using LowTwos = LanesFrom<Halves<Two>, 0>;
+using HighTwos = LanesFrom<Halves<Two>, middle>;
+TWEENFALL_FIGURE_KERNELS(plain_figures, Halves<Halves<Two>>, LowTwos, HighTwos, )
 #if defined(__x86_64__) || defined(__i386__)
-TWEENFALL_FIGURE_KERNELS(avx2_figures, Halves<Four>, [[gnu::target("avx2")]])
-TWEENFALL_FIGURE_KERNELS(avx512_figures, Eight, [[gnu::target("avx512f,avx512vl,avx512dq")]])
+using LowFour = LanesFrom<Four, 0>;
+using HighFour = LanesFrom<Four, middle>;
+TWEENFALL_FIGURE_KERNELS(avx2_figures, Halves<Four>, LowFour, HighFour, [[gnu::target("avx2")]])
+TWEENFALL_FIGURE_KERNELS(avx512_figures, Eight, Eight, Eight, [[gnu::target("avx512f,avx512vl,avx512dq")]])
 #endif
 
 }  // namespace

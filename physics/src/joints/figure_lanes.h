@@ -51,6 +51,16 @@ struct FigureRow {
   blocks::Lanes in;       ///< it is solved together with all others that are `in`
 };
 
+/// Lanes may be solved in so many parts: rows of each change places between `in` and beside by themselves.
+constexpr std::size_t most_parts = 2;
+
+/// The rows of a joint that are `in` in some lane of a part.
+struct FigureRowsIn {
+  std::uint8_t count = 0;
+  std::array<std::uint8_t, state::Joint::most_rows> slots{};
+  std::uint32_t value = 0, diagonal = 0;  ///< index of the first ones in their arrays
+};
+
 /// A joint in each lane.
 struct FigureJoint {
   static constexpr std::size_t most_rows = state::Joint::most_rows;
@@ -63,18 +73,20 @@ struct FigureJoint {
   std::array<bool, most_rows> turning{};          ///< rows without a linear part
   std::array<std::uint8_t, most_rows> sources{};  ///< rows of the joint, if they are written in lanes
   blocks::Lanes3 arm_a, arm_b;
-  blocks::Lanes3 push, turn;  ///< on b in the step so far, N s and N m s
-
-  // For the rows that are `in` in some lane
-  std::uint8_t in_count = 0;
-  std::array<std::uint8_t, most_rows> slots{};
-  std::uint32_t value = 0, diagonal = 0;  ///< index of the first ones in their arrays
+  blocks::Lanes3 push, turn;                  ///< on b in the step so far, N s and N m s
+  std::array<FigureRowsIn, most_parts> in{};  ///< by part
 };
 
 /// A joint that is affected and eliminated later.
 struct FigureLink {
   std::uint32_t place = 0;
-  std::uint32_t block = 0;  ///< start of its block
+  std::array<std::uint32_t, most_parts> blocks{};  ///< start of its block, by part
+};
+
+/// The factors of a part.
+struct FigurePart {
+  bool stale = true;    ///< they belong to other rows
+  bool silent = false;  ///< some row is redundant
 };
 
 /// Up to eight figures.
@@ -92,8 +104,7 @@ struct Figures {
   blocks::Lanes* blocks = nullptr;  ///< of the factors, row by row; the diagonal holds inverses, or 0 for a row that is
                                     ///< redundant
   blocks::Lanes* values = nullptr;
-  bool stale = true;    ///< the factors belong to other rows
-  bool silent = false;  ///< some row is redundant
+  std::array<FigurePart, most_parts> parts{};
 };
 
 /// How rows are written: see JointRows::begin.
