@@ -36,7 +36,7 @@ TEST_CASE("every word of a world's strategies has a document") {
                                                          "implicit_trapezoid", "midpoint", "rk4", "semi_implicit_euler",
                                                          "trapezoid", "verlet"});
   CHECK(names_in("separation") == std::set<std::string>{"by_mass", "closest_point", "half", "positional_impulse"});
-  CHECK(names_in("collision") == std::set<std::string>{"ahead", "discrete", "time_of_impact"});
+  CHECK(names_in("collision") == std::set<std::string>{"ahead", "discrete", "own", "time_of_impact"});
   CHECK(names_in("stacking") == std::set<std::string>{"iterative", "lcp", "sequential", "shock"});
   CHECK(names_in("soft") == std::set<std::string>{"cloth_positions", "cloth_springs", "flag", "net", "rope_positions",
                                                   "rope_springs", "tearing", "volume_positions", "volume_springs"});
@@ -157,6 +157,19 @@ TEST_CASE("the bullet passes the wall where it is looked for after the step, and
   impact.advance_to(1);
   const double down = std::sqrt(4 / 9.81), up = 0.8 * 9.81 * down, since = 1 - down;
   CHECK(near(place_of(impact, "ball").y(), 0.1 + up * since - 0.5 * 9.81 * since * since, 1e-5));
+}
+
+TEST_CASE("in one world a bullet that is looked for late passes the wall, and its careful twin stops at its face") {
+  Stage stage = lecture("collision/own");
+  stage.advance_to(0.1);
+  CHECK(place_of(stage, "retroactive bullet").x() > 9);
+  CHECK(near(place_of(stage, "conservative bullet").x(), 4.935, 1e-6));
+  stage.advance_to(1);
+  // Of the balls, as above.
+  const double down = std::sqrt(4 / 9.81), up = 0.8 * 9.81 * down, since = 1 - down;
+  const double height = 0.1 + up * since - 0.5 * 9.81 * since * since;
+  CHECK(near(place_of(stage, "conservative ball").y(), height, 1e-5));
+  CHECK(std::abs(place_of(stage, "retroactive ball").y() - height) > 1e-3);
 }
 
 TEST_CASE("the stack stands by every solver but the sequential one, into which its weight sinks") {

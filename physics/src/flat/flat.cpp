@@ -77,6 +77,7 @@ void require_body(WorldPlane plane, const BodySettings& body) {
           "in a plane there are no moving surfaces");
   require(body.spinning_friction == 0,
           "in a plane nothing spins about the normal of a contact: there is no spinning friction");
+  require(!body.collision, "in a plane there is one collision detection: a body takes none of its own");
   require_motion(plane, body.motion);
 }
 

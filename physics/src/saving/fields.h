@@ -124,10 +124,11 @@ void each_field(T& properties, const Visit& visit) {
 template <Is<Makeup> T, class Visit>
 void each_field(T& makeup, const Visit& visit) {
   auto& [shape, mass, inverse_inertia, radius, roundness, linear_damping, angular_damping, friction, restitution,
-         rolling_friction, spinning_friction, friction_combine, restitution_combine, sensor, weighed, spherical,
-         aligned, slender, turned] = makeup;
+         rolling_friction, spinning_friction, friction_combine, restitution_combine, collision, sensor, weighed,
+         spherical, aligned, slender, turned] = makeup;
   visit(linear_damping, angular_damping, mass.mass, friction, restitution, rolling_friction, spinning_friction,
         friction_combine, restitution_combine, sensor, shape);
+  visit.rarely(collision);
   visit.rarely(weighed);
   if (weighed) visit(mass.center, mass.inertia);  // otherwise they follow from the shape
   follows_from_others(inverse_inertia, radius, roundness, spherical, aligned, slender, turned);
@@ -389,14 +390,14 @@ void each_field(T& settings, const Visit& visit) {
 template <Is<WorldState> T, class Visit>
 void each_field(T& world, const Visit& visit) {
   auto& [settings, bodies, unused, forces, next_force, time, failed, memories, stands, ignored, joints, unused_joints,
-         broken, planar_contacts, ended, gone_contacts, sensors, overlaps, left_sensors, softs, unused_softs, flat] =
-      world;
+         broken, planar_contacts, ended, gone_contacts, sensors, overlaps, left_sensors, other_detections, softs,
+         unused_softs, flat] = world;
   visit(settings, bodies, unused, forces, next_force, time, memories, stands, ignored, joints, unused_joints, broken,
         planar_contacts, ended, gone_contacts, overlaps, left_sensors);
   bool has_softs = !softs.empty();
   visit.rarely(has_softs);
   if (has_softs) visit(softs, unused_softs);
-  follows_from_others(sensors);
+  follows_from_others(sensors, other_detections);
   follows_from_others(flat);    // saved after everything else, if there is a plane
   follows_from_others(failed);  // a body that is not finite cannot be saved, and is found again
 }

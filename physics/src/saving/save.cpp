@@ -20,7 +20,7 @@ namespace tweenfall {
 namespace saving {
 namespace {
 
-constexpr Envelope world_envelope{"world", 10};
+constexpr Envelope world_envelope{"world", 11};
 
 bool unit(const Quat& rotation) {
   return std::abs(rotation.norm() - 1) <= 1e-9;
@@ -132,6 +132,7 @@ void check_bodies(WorldState& world) {
       continue;
     }
     at("body " + std::to_string(i), [&] { check(world.bodies[i], makeups); });
+    if (state::asks_for_other_detection(*world.bodies[i].makeup)) ++world.other_detections;
     if (world.bodies[i].sensor()) world.sensors.push_back(static_cast<std::uint32_t>(i));
   }
   for (const std::uint32_t index : world.unused) {

@@ -24,6 +24,7 @@ struct Makeup {
   double spinning_friction = 0;
   Combine friction_combine = Combine::usual;
   Combine restitution_combine = Combine::usual;
+  std::optional<Detection> collision{};
   bool sensor = false;
   bool weighed = false;    ///< its mass properties were given, not those of an even solid
   bool spherical = false;  ///< the same moment about every axis: spin feels no gyroscopic torque

@@ -151,8 +151,15 @@ void validate_surface(const Makeup& body) {
   require_amount(body.spinning_friction, "spinning friction");
   require(body.friction_combine <= Combine::maximum && body.restitution_combine <= Combine::maximum,
           "there is no such rule to combine frictions or restitutions");
+  require(!body.collision || *body.collision <= Detection::time_of_impact, "there is no such collision detection");
+  require(!body.collision || !body.sensor,
+          "a sensor takes no collision of its own: it notices what overlaps it at the end of a step");
   require_amount(body.linear_damping, "linear damping");
   require_amount(body.angular_damping, "angular damping");
+}
+
+bool asks_for_other_detection(const Makeup& body) {
+  return body.collision.value_or(Detection{}) != Detection{};
 }
 
 void validate_surface(const Twist& velocity) {

@@ -18,13 +18,16 @@ void require_amount(double value, const char* name);
 void validate(const WorldSettings& settings);
 void validate(const Force& force);
 void validate(const Drive& drive);
-/// Friction, restitution and damping.
+/// Friction, restitution, damping and collision.
 void validate_surface(const Makeup& body);
 void validate_surface(const Twist& velocity);
 
 [[nodiscard]] inline bool conveys(const Twist& surface) {
   return surface.linear != Vec3::Zero() || surface.angular != Vec3::Zero();
 }
+
+/// Whether a body has a collision of its own that the default step does not know.
+[[nodiscard]] bool asks_for_other_detection(const Makeup& body);
 
 /// The motion with its rotation normalized if it is not yet.
 [[nodiscard]] Motion checked(Motion motion);

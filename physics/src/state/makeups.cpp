@@ -63,8 +63,8 @@ bool alike(const Makeup& a, const Makeup& b) {
          alike(a.angular_damping, b.angular_damping) && alike(a.friction, b.friction) &&
          alike(a.restitution, b.restitution) && alike(a.rolling_friction, b.rolling_friction) &&
          alike(a.spinning_friction, b.spinning_friction) && a.friction_combine == b.friction_combine &&
-         a.restitution_combine == b.restitution_combine && a.sensor == b.sensor && a.weighed == b.weighed &&
-         a.spherical == b.spherical && a.turned == b.turned;
+         a.restitution_combine == b.restitution_combine && a.sensor == b.sensor && a.collision == b.collision &&
+         a.weighed == b.weighed && a.spherical == b.spherical && a.turned == b.turned;
 }
 
 const std::shared_ptr<const Makeup>& no_makeup() {

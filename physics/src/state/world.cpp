@@ -145,6 +145,7 @@ BodyId World::add(const BodySettings& settings) {
   makeup.friction_combine = settings.friction_combine;
   makeup.restitution_combine = settings.restitution_combine;
   makeup.sensor = settings.sensor;
+  makeup.collision = settings.collision;
   makeup.linear_damping = settings.linear_damping;
   makeup.angular_damping = settings.angular_damping;
   state::validate_surface(makeup);
@@ -174,6 +175,7 @@ BodyId World::add(const BodySettings& settings) {
     world.bodies[index] = body;
   }
   world.note(index);
+  if (state::asks_for_other_detection(makeup)) ++world.other_detections;
   if (body.sensor()) world.sensors.insert(std::lower_bound(world.sensors.begin(), world.sensors.end(), index), index);
   return {index, world.bodies[index].generation};
 }
@@ -188,6 +190,7 @@ void World::remove(BodyId id) {
     std::erase_if(soft.pins, [&](const soft::PinState& state) { return state.pin.body == id; });
   world.drop_contacts(id.index);
   if (body.sensor()) std::erase(world.sensors, id.index);
+  if (state::asks_for_other_detection(*body.makeup)) --world.other_detections;
   body.alive = false;
   ++body.generation;
   world.broad_phase.remove(id.index);

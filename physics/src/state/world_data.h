@@ -101,11 +101,22 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void advance_bodies(double dt);
 
   // If other strategies than the defaults are asked for
+  [[nodiscard]] bool goes_by_strategies() const;
   [[nodiscard]] bool goes_by_strategies(const islands::IslandContents& island) const;
+  [[nodiscard]] Detection detection_of(const contacts::PairInContact& pair) const;
   /// @return the residual of complementarity, m/s
   double solve_by_strategies(const islands::IslandContents& island, double dt, strategies::IslandByStrategies& by);
   void fly_alone(std::uint32_t index, double h, double dt);  ///< a body that nothing moved, through a part of dt
-  void separate(std::span<contacts::ContactConstraint* const> overlapping);
+  /// Those that are found before the bodies overlap.
+  [[nodiscard]] std::vector<contacts::ContactConstraint*> foreseen(
+      std::span<contacts::ContactConstraint* const> contacts) const;
+  /// What overlaps at the end of the step, and is looked for only then, responds together with what touches it.
+  /// @param found_at  where bodies were when the contacts were found, by index
+  /// @return the residual of complementarity, m/s
+  double respond_late(std::span<contacts::ContactConstraint* const> contacts, std::span<const step::Start> found_at,
+                      double dt, strategies::IslandByStrategies& by);
+  /// @param cut  the contacts were found within the step, not at its start
+  void separate(std::span<contacts::ContactConstraint* const> overlapping, bool cut = false);
   [[nodiscard]] bool goes_by_impacts() const;
   /// Steps the whole world from impact to impact.
   void solve_by_impacts(double dt);

@@ -37,6 +37,7 @@ struct WorldState {
   std::vector<std::uint32_t> sensors;       ///< indices of bodies, sorted
   std::vector<SensorOverlap> overlaps;      ///< by sensor, then by body
   std::vector<SensorOverlap> left_sensors;  ///< in the last step
+  std::size_t other_detections = 0;         ///< number of bodies that ask for another collision than the default
   std::vector<soft::SoftBody> softs;
   std::vector<std::uint32_t> unused_softs;  ///< indices of removed soft bodies
   Boxed<flat::Flat> flat;                   ///< only of a planar world

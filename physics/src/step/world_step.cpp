@@ -462,7 +462,7 @@ void World::Implementation::step(double dt, double of_parts) {
   failed = true;
   note_soft_starts();
   advance_bodies(dt);
-  if (!strategies::chosen(settings)) {
+  if (!goes_by_strategies()) {
     find_obstacles();
     hold_before_surfaces();
     hold_before_walls(dt);

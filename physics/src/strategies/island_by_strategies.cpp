@@ -7,6 +7,7 @@
 
 #include "contacts/meeting.h"
 #include "step/keyed_step.h"
+#include "strategies/detection.h"
 #include "strategies/solvers/solvers.h"
 #include "strategies/touching.h"
 
@@ -63,6 +64,8 @@ void IslandByStrategies::gather(const std::vector<Body>& bodies, const std::vect
     const std::uint32_t a = party_of(bodies, contact.a, part), b = party_of(bodies, contact.b, part);
     const contacts::Closing closing =
         contacts::closing_of(contact.manifold.normal, loads[contact.a], loads[contact.b], part.step);
+    const bool blows = part.blows || detection_of(bodies[contact.a], bodies[contact.b], settings.collision) !=
+                                         Detection::time_of_impact;
     for (int i = 0; i < contact.count; ++i) {
       PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
       Touch touch;
@@ -75,16 +78,16 @@ void IslandByStrategies::gather(const std::vector<Body>& bodies, const std::vect
       touch.contact = static_cast<std::uint32_t>(k);
       touch.point = static_cast<std::uint32_t>(i);
       const double gap = point.start_gap > touching ? point.start_gap : 0;
-      if (gap > 0 && (!part.ahead || part.h == 0)) continue;
+      if (gap > 0 && part.h == 0) continue;
       if (gap > 0) touch.wanted = -gap / part.h;
       // Bodies that meet in a later part are handled there.
-      const double span = part.blows ? part.h : (1 + 1e-6) * part.left;
+      const double span = blows ? part.h : (1 + 1e-6) * part.left;
       const double speed =
           contacts::meeting_of(gap, -island_.parting(touch), part.h > 0 ? closing.pull : 0, span).speed;
       if (speed > closing.tremble) {
-        if (!part.blows && gap > 0) continue;
+        if (!blows && gap > 0) continue;
         point.approach = std::max(point.approach, speed);
-        if (part.blows && contact.restitution > 0) touch.wanted = contact.restitution * speed;
+        if (blows && contact.restitution > 0) touch.wanted = contact.restitution * speed;
       }
       if (contact.kept_step > 0 && part.h > 0) touch.kept = point.kept_normal * (part.h / contact.kept_step);
       island_.touches.push_back(touch);

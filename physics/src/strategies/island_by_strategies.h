@@ -16,8 +16,7 @@ struct Part {
   double h = 0;       ///< its length, s; 0 for a single instant
   double left = 0;    ///< time from its start to the end of the step, s
   double step = 0;    ///< the whole step, s: speeds below what gravity gives in it are no blows
-  bool blows = true;  ///< colliding bodies bounce
-  bool ahead = true;  ///< gaps may close in it, but no further; otherwise only what already touches counts
+  bool blows = true;  ///< bodies that are watched to the time of their impact bounce, too
 };
 
 /// Moves the parties of an island through a part of a step, by the strategies that the world asks for.

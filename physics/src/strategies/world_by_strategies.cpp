@@ -2,6 +2,7 @@
 #include <tweenfall/physics/strategies.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <tuple>
 
@@ -9,6 +10,7 @@
 #include "contacts/meeting.h"
 #include "state/world_data.h"
 #include "step/keyed_step.h"
+#include "strategies/detection.h"
 #include "strategies/separations/separations.h"
 #include "strategies/touching.h"
 
@@ -74,10 +76,11 @@ double time_of_blow(const ContactConstraint& contact, const std::vector<Body>& b
 }
 
 /// A contact for the present positions of its bodies; without points if they are apart.
+/// @param found_at  where bodies were when it was found, by index
 /// @param find  finds a manifold again for a contact whose points have been forgotten
 template <class Find>
 ContactConstraint overlap_now(const ContactConstraint& contact, const std::vector<Body>& bodies,
-                              const std::vector<step::Start>& starts, const Find& find) {
+                              std::span<const step::Start> found_at, const Find& find) {
   const Body &a = bodies[contact.a], &b = bodies[contact.b];
   if (!surfaces::surface_of(a.shape().solid) && !surfaces::surface_of(b.shape().solid)) {
     ContactConstraint now = small::looked_for_again(contact);
@@ -87,7 +90,7 @@ ContactConstraint overlap_now(const ContactConstraint& contact, const std::vecto
   }
   // For a mesh or a field, the triangle is known: it is treated as a plane.
   ContactConstraint now = contact;
-  const step::Start &from_a = starts[contact.a], &from_b = starts[contact.b];
+  const step::Start &from_a = found_at[contact.a], &from_b = found_at[contact.b];
   for (int i = 0; i < now.count; ++i) {
     PointConstraint& point = now.points[static_cast<std::size_t>(i)];
     const Vec3 arm_a = a.motion.pose.rotation * (from_a.rotation.conjugate() * point.start_arm_a);
@@ -98,6 +101,18 @@ ContactConstraint overlap_now(const ContactConstraint& contact, const std::vecto
     point.start_arm_b = arm_b;
   }
   return now;
+}
+
+/// Adds what a contact got when it was found once more.
+void add_totals(ContactConstraint& contact, const ContactConstraint& again) {
+  PointConstraint& first = contact.points[0];
+  for (int i = 0; i < again.count; ++i) {
+    const PointConstraint& point = again.points[static_cast<std::size_t>(i)];
+    first.total_normal += point.total_normal;
+    first.total_friction +=
+        point.total_normal * (again.manifold.normal - contact.manifold.normal) + point.total_friction;
+    first.approach = std::max(first.approach, point.approach);
+  }
 }
 
 /// Sums of contacts over all parts of a step.
@@ -170,8 +185,16 @@ class Sums {
 }  // namespace
 }  // namespace strategies
 
+bool World::Implementation::goes_by_strategies() const {
+  return strategies::chosen(settings) || other_detections > 0;
+}
+
+Detection World::Implementation::detection_of(const contacts::PairInContact& pair) const {
+  return strategies::detection_of(bodies[pair.a], bodies[pair.b], settings.collision);
+}
+
 bool World::Implementation::goes_by_strategies(const islands::IslandContents& island) const {
-  if (!strategies::chosen(settings) || !island.springs.empty() || !island.joints.empty()) return false;
+  if (!goes_by_strategies() || !island.springs.empty() || !island.joints.empty()) return false;
   return std::none_of(island.contacts.begin(), island.contacts.end(), [&](const auto* contact) {
     return bodies[contact->a].drive.owner() == Owner::driven || bodies[contact->b].drive.owner() == Owner::driven;
   });
@@ -184,31 +207,56 @@ double World::Implementation::solve_by_strategies(const islands::IslandContents&
     for (const contacts::ContactConstraint* contact : island.contacts)
       for (const std::uint32_t index : {contact->a, contact->b}) fly_alone(index, dt, dt);
   };
+  double off = by.respond(bodies, loads, foreseen(island.contacts), settings,
+                          {.h = dt, .left = dt, .step = dt * part_count}, moved);
+  fly_all();
+  off = std::max(off, respond_late(island.contacts, starts, dt, by));
+  separate(island.contacts);
+  return off;
+}
+
+std::vector<contacts::ContactConstraint*> World::Implementation::foreseen(
+    std::span<contacts::ContactConstraint* const> contacts) const {
+  std::vector<contacts::ContactConstraint*> those;
+  std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(those),
+               [this](const auto* contact) { return detection_of(*contact) != Detection::discrete; });
+  return those;
+}
+
+double World::Implementation::respond_late(std::span<contacts::ContactConstraint* const> contacts,
+                                           std::span<const step::Start> found_at, double dt,
+                                           strategies::IslandByStrategies& by) {
   const auto find = [this](contacts::ContactConstraint& contact, const collision::Passage& way_a,
                            const collision::Passage& way_b) {
     return find_manifold(contact, bodies[contact.a], bodies[contact.b], way_a, way_b, strategies::instant, nullptr);
   };
-  double off = 0;
-  if (settings.collision == Detection::discrete) {
-    // All move on by the whole step; then whatever overlaps responds, and is pushed apart.
-    fly_all();
-    std::vector<contacts::ContactConstraint*> met;
-    for (contacts::ContactConstraint* contact : island.contacts) {
-      contacts::ContactConstraint now = strategies::overlap_now(*contact, bodies, starts, find);
+  const auto is_late = [this](const auto* contact) { return detection_of(*contact) == Detection::discrete; };
+  if (std::none_of(contacts.begin(), contacts.end(), is_late)) return 0;
+  std::vector<contacts::ContactConstraint> again;  // of what has responded already
+  std::vector<contacts::ContactConstraint*> responded, met;
+  again.reserve(contacts.size());
+  for (contacts::ContactConstraint* contact : contacts) {
+    const bool late = is_late(contact);
+    contacts::ContactConstraint now = strategies::overlap_now(*contact, bodies, found_at, find);
+    now.kept = false;
+    now.impact_time = dt;
+    if (late) {
       contact->kept = false;
       contact->impact_time = dt;
-      if (now.count == 0) continue;
-      now.kept = false;
-      now.impact_time = dt;
+    }
+    if (now.count == 0) continue;
+    if (late) {
       *contact = now;
       met.push_back(contact);
+    } else {
+      strategies::forget_totals(now);
+      again.push_back(now);
+      responded.push_back(contact);
+      met.push_back(&again.back());
     }
-    off = by.respond(bodies, loads, met, settings, {.h = 0, .left = dt, .step = dt * part_count}, moved);
-  } else {
-    off = by.respond(bodies, loads, island.contacts, settings, {.h = dt, .left = dt, .step = dt * part_count}, moved);
-    fly_all();
   }
-  separate(island.contacts);
+  const double off = by.respond(bodies, loads, met, settings, {.h = 0, .left = dt, .step = dt * part_count}, moved);
+  for (std::size_t i = 0; i < again.size(); ++i) strategies::add_totals(*responded[i], again[i]);
   return off;
 }
 
@@ -222,11 +270,12 @@ void World::Implementation::fly_alone(std::uint32_t index, double h, double dt) 
   moved[index] = 1;
 }
 
-void World::Implementation::separate(std::span<contacts::ContactConstraint* const> overlapping) {
+void World::Implementation::separate(std::span<contacts::ContactConstraint* const> overlapping, bool cut) {
   // For a mesh or a field, it is known where it was met at the start of the step.
   const auto lost = [&](const contacts::ContactConstraint& contact) {
-    return settings.collision != Detection::ahead && (surfaces::surface_of(bodies[contact.a].shape().solid) ||
-                                                      surfaces::surface_of(bodies[contact.b].shape().solid));
+    return (cut || detection_of(contact) != Detection::ahead) &&
+           (surfaces::surface_of(bodies[contact.a].shape().solid) ||
+            surfaces::surface_of(bodies[contact.b].shape().solid));
   };
   const auto find = [this](contacts::ContactConstraint& contact, const collision::Passage& way_a,
                            const collision::Passage& way_b) {
@@ -262,7 +311,12 @@ void World::Implementation::separate(std::span<contacts::ContactConstraint* cons
 }
 
 bool World::Implementation::goes_by_impacts() const {
-  if (settings.collision != Detection::time_of_impact || !links.empty() || !stiff_springs.empty()) return false;
+  if (!links.empty() || !stiff_springs.empty()) return false;
+  if (settings.collision != Detection::time_of_impact &&
+      (other_detections == 0 || std::none_of(active.begin(), active.end(), [this](const auto* contact) {
+         return detection_of(*contact) == Detection::time_of_impact;
+       })))
+    return false;
   return std::none_of(watched.begin(), watched.end(),
                       [&](std::uint32_t index) { return bodies[index].drive.owner() == Owner::driven; });
 }
@@ -275,11 +329,13 @@ void World::Implementation::solve_by_impacts(double dt) {
   const double soon = strategies::meets_now * dt;
   double left = dt;
   int at_once = 0;
+  std::vector<step::Start> found_at;  // needed where something may be looked for at the end of the step alone
+  if (other_detections > 0) found_at = starts;
   const auto go = [&](double h, bool blows) {
     moved.assign(bodies.size(), 0);
     for (contacts::ContactConstraint* contact : active) strategies::forget_totals(*contact);
     complementarity =
-        std::max(complementarity, by.respond(bodies, loads, active, settings,
+        std::max(complementarity, by.respond(bodies, loads, foreseen(active), settings,
                                              {.h = h, .left = left, .step = dt * part_count, .blows = blows}, moved));
     if (h == 0) return;
     for (const std::uint32_t index : watched) fly_alone(index, h, dt);
@@ -288,10 +344,13 @@ void World::Implementation::solve_by_impacts(double dt) {
   for (int i = 0;; ++i) {
     double first = strategies::never_met;
     for (const contacts::ContactConstraint* contact : active)
-      first = std::min(first, strategies::time_of_blow(*contact, bodies, loads, left, dt * part_count));
+      if (detection_of(*contact) == Detection::time_of_impact)
+        first = std::min(first, strategies::time_of_blow(*contact, bodies, loads, left, dt * part_count));
     if (first > left || i == strategies::most_instants || at_once == strategies::most_blows_at_once) {
       go(left, first <= left);
-      separate(active);
+      sums.add(active);
+      complementarity = std::max(complementarity, respond_late(active, found_at, dt, by));
+      separate(active, i > 0);
       break;
     }
     const double h = first <= soon ? 0 : std::min(first, left);
@@ -304,6 +363,11 @@ void World::Implementation::solve_by_impacts(double dt) {
                            flight);
       find_constraints(left);
     } while (wake_islands());
+    if (found_at.empty()) continue;
+    for (const std::uint32_t index : watched) {
+      found_at[index].center = bodies[index].center;
+      found_at[index].rotation = bodies[index].motion.pose.rotation;
+    }
   }
   sums.add(active);
   sums.finish(active, struck, dt);

@@ -18,15 +18,15 @@ namespace {
 // Words that other things of a document have too: other fields, functions and modifiers of tracks, members of clips,
 // keys of a document's own, ragdolls.
 const std::set<std::string> words_of_others = {
-    "clip",       "at",           "speed",       "weight",         "body",
-    "to",         "path",         "velocity",    "offset",         "group",
-    "gravity",    "step",         "shape",       "ignore",         "mesh",
-    "mass",       "friction",     "restitution", "linear_damping", "angular_damping",
-    "fill",       "mask",         "when",        "settle",         "joints",
-    "name",       "from",         "loop",        "count",          "once",
-    "overlap",    "sweep",        "density",     "integrator",     "solver",
-    "iterations", "color",        "plane",       "direction",      "forces",
-    "groups",     "collides_with"};
+    "clip",       "at",        "speed",        "weight",         "body",
+    "to",         "path",      "velocity",     "offset",         "group",
+    "gravity",    "step",      "shape",        "ignore",         "mesh",
+    "mass",       "friction",  "restitution",  "linear_damping", "angular_damping",
+    "fill",       "mask",      "when",         "settle",         "joints",
+    "name",       "from",      "loop",         "count",          "once",
+    "overlap",    "sweep",     "density",      "integrator",     "solver",
+    "iterations", "color",     "plane",        "direction",      "forces",
+    "groups",     "collision", "collides_with"};
 
 // A source without its comments, and without the names of its forms in the schema.
 std::string code_of(const std::filesystem::path& file) {

@@ -171,6 +171,8 @@ TEST_CASE("every field reaches the stage's description") {
     CHECK(probe.restitution_combine == Combine::average);
     CHECK(probe.spinning_friction == 0.02);
     CHECK(probe.sensor);
+    CHECK(belt.collision == Detection::time_of_impact);
+    CHECK(!probe.collision);
     CHECK(near(node("late").rest.rotation, Quat(std::cos(15 * degree), 0, -std::sin(15 * degree), 0), 1e-14));
     CHECK(near(node("base").rest.rotation, Quat(c, 0, c, 0), 1e-14));
     CHECK(near(node("base").rest.scale, Vec3(1, 2, 3), 0));

@@ -1,3 +1,5 @@
+#include <tweenfall/physics/strategies.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -49,6 +51,17 @@ std::uint64_t bits_of(const json::Value& list, Building& building) {
     bits |= std::uint64_t{1} << bit;
   }
   return bits;
+}
+
+Row<Body> collision_row() {
+  Row<Body> row = one_of<Body, Detection>(
+      "collision", "a way to find that bodies meet", detection_words(),
+      "when it is found to meet others; absent: as they say, or else the world. Of two that differ the more careful",
+      &Body::collision);
+  row.useless = [](const Body& body) {
+    return body.sensor ? "for a sensor; it notices what overlaps it at the end of a step" : "";
+  };
+  return row;
 }
 
 const Table<Body>& body_table() {
@@ -113,6 +126,7 @@ const Table<Body>& body_table() {
         false,
         {},
         {"trigger", "istrigger", "is_trigger"}},
+       collision_row(),
        {"groups", groups_form, "that it belongs to", groups},
        {"collides_with", groups_form, "groups; absent: all. Two bodies meet when each names one of the other's",
         collides_with},

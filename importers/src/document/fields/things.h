@@ -62,6 +62,7 @@ void read_world(const json::Value& world, Building& building);
 const Form* step_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] double seconds_of_step(const json::Value& step);
 [[nodiscard]] const std::vector<std::pair<std::string, Integrator>>& integrator_words();
+[[nodiscard]] const std::vector<std::pair<std::string, Detection>>& detection_words();
 [[nodiscard]] json::Value place_of_gravity(const json::Value& world);  // or the world, where it says none; and so below
 [[nodiscard]] json::Value place_of_step(const json::Value& world);
 [[nodiscard]] json::Value place_of_force(const json::Value& world, std::size_t index);

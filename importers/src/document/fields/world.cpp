@@ -118,10 +118,7 @@ const Table<StageDescription>& world_table() {
                                {"positional-impulse", Parting::positional_impulse},
                                {"closest-point", Parting::closest_point}},
                               "how overlap is taken apart", of_world(&WorldSettings::separation)),
-       one_of<Stage, Detection>("collision", "a way to find that bodies meet",
-                                {{"ahead", Detection::ahead},
-                                 {"discrete", Detection::discrete},
-                                 {"time-of-impact", Detection::time_of_impact}},
+       one_of<Stage, Detection>("collision", "a way to find that bodies meet", detection_words(),
                                 "when bodies are found to meet", of_world(&WorldSettings::collision)),
        one_of<Stage, PairSearch>("broad_phase", "a way to find pairs",
                                  {{"tree", PairSearch::tree},
@@ -188,6 +185,12 @@ const std::vector<std::pair<std::string, Integrator>>& integrator_words() {
       {"verlet", Integrator::verlet},
       {"backward-euler", Integrator::backward_euler},
       {"implicit-trapezoid", Integrator::implicit_trapezoid}};
+  return words;
+}
+
+const std::vector<std::pair<std::string, Detection>>& detection_words() {
+  static const std::vector<std::pair<std::string, Detection>> words = {
+      {"ahead", Detection::ahead}, {"discrete", Detection::discrete}, {"time-of-impact", Detection::time_of_impact}};
   return words;
 }
 

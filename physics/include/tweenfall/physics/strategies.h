@@ -3,9 +3,10 @@
 /// Alternatives to parts of a world's step: each is a textbook method, to be read, watched
 /// and compared. The defaults are the fastest and the most exact.
 ///
-/// If a world asks for another solver, separation or collision, all its islands of contacts use them, and the
-/// defaults of the others in their plain form: the iterative solver sweep after sweep, and overlap removed
-/// by positional impulses. Islands with joints, drives or springs too stiff for the step are solved as usual.
+/// If a world asks for another solver, separation or collision, or one of its bodies for another collision, all its
+/// islands of contacts use them, and the defaults of the others in their plain form: the iterative solver sweep after
+/// sweep, and overlap removed by positional impulses. Islands with joints, drives or springs too stiff for the step are
+/// solved as usual.
 
 #include <tweenfall/physics/world.h>
 
@@ -34,7 +35,7 @@ enum class Parting : std::uint8_t {
   closest_point,       ///< one of the two by all of it, to the closest place where it touches from outside
 };
 
-/// When bodies are found to meet.
+/// When bodies are found to meet; a world's, unless one of two bodies has its own (`BodySettings::collision`).
 enum class Detection : std::uint8_t {
   ahead,     ///< at the start of the step, as far ahead as it goes (the default)
   discrete,  ///< when they overlap at the end of the step: fast thin bodies pass through

@@ -103,10 +103,14 @@ struct BodySettings {
       0;                        ///< in addition, only against turning about the normal; a pair takes the larger ones, m
   Twist surface_velocity = {};  ///< of the surface relative to the body, at its center of mass, node axes
   bool sensor = false;          ///< reports what overlaps it, but neither pushes nor is pushed
-  double linear_damping = 0;    ///< 1/s
-  double angular_damping = 0;   ///< 1/s
-  bool fixed = false;           ///< part of the scenery: never moves
-  std::uint64_t groups = 1;     ///< the groups it belongs to, one bit each
+  /// When it is found to meet others, whatever the world says. Of two bodies that say different things, the more
+  /// careful holds: time of impact before ahead, ahead before discrete. Absent: as the other body says, or else the
+  /// world. See `strategies.h` for what else follows from it. Sensors take none, and in a plane there is none.
+  std::optional<Detection> collision{};
+  double linear_damping = 0;   ///< 1/s
+  double angular_damping = 0;  ///< 1/s
+  bool fixed = false;          ///< part of the scenery: never moves
+  std::uint64_t groups = 1;    ///< the groups it belongs to, one bit each
   std::uint64_t collides_with =
       ~std::uint64_t{0};  ///< groups; two bodies meet when each collides with a group of the other
   Drive drive = Drive::free();

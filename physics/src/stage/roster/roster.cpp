@@ -41,6 +41,7 @@ BodySettings settings_of(const StageState& state, NodeId node, const BodyDescrip
                         .spinning_friction = body.spinning_friction,
                         .surface_velocity = body.surface_velocity,
                         .sensor = body.sensor,
+                        .collision = body.collision,
                         .linear_damping = body.linear_damping,
                         .angular_damping = body.angular_damping,
                         .fixed = body.fixed,

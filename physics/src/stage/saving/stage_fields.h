@@ -122,10 +122,10 @@ void each_field(T& rule, const Visit& visit) {
 template <Is<BodyDescription> T, class Visit>
 void each_field(T& body, const Visit& visit) {
   auto& [shape, mass, density, mass_properties, friction, restitution, friction_combine, restitution_combine,
-         rolling_friction, spinning_friction, surface_velocity, sensor, groups, collides_with, linear_damping,
-         angular_damping, fixed, drive, twist] = body;
+         rolling_friction, spinning_friction, surface_velocity, sensor, collision, groups, collides_with,
+         linear_damping, angular_damping, fixed, drive, twist] = body;
   visit(shape, mass, density, mass_properties, friction, restitution, friction_combine, restitution_combine,
-        rolling_friction, spinning_friction, surface_velocity, sensor, groups, collides_with, linear_damping,
+        rolling_friction, spinning_friction, surface_velocity, sensor, collision, groups, collides_with, linear_damping,
         angular_damping, fixed, drive, twist);
 }
 

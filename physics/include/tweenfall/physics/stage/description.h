@@ -33,6 +33,7 @@ struct BodyDescription {
   double spinning_friction = 0;  ///< m
   Twist surface_velocity = {};   ///< of the surface relative to the body, at its center of mass, node axes
   bool sensor = false;
+  std::optional<Detection> collision{};             ///< absent: as the other body says, or else the world
   std::uint64_t groups = 1;                         ///< one bit each
   std::uint64_t collides_with = ~std::uint64_t{0};  ///< groups
   double linear_damping = 0;                        ///< 1/s
