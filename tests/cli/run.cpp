@@ -75,6 +75,24 @@ TEST_CASE("without a file to write, run tells of the hand-off and of the contact
     CHECK_MESSAGE(ran.out.find(part) != std::string::npos, part << " in " << ran.out);
 }
 
+TEST_CASE("run tells the residual of complementarity where the solver is lcp, in its summary and in JSON") {
+  const Folder folder;
+  const std::string stacking = TWEENFALL_SOURCE_DIR "/samples/documents/lectures/stacking/";
+  const std::string stack = stacking + "lcp.json", other = stacking + "shock.json";
+  const Ran summary = folder.run("run " + stack + " --until 1");
+  CHECK(summary.code == 0);
+  const std::string words = "complementarity of contacts: residual of at most ";
+  const std::size_t told = summary.out.find(words);
+  REQUIRE(told != std::string::npos);
+  const double residual = std::stod(summary.out.substr(told + words.size()));
+  CHECK(residual > 0);
+  CHECK(residual < 1e-9);
+  const json found = json::parse(folder.run("run " + stack + " --until 1 --fps 10 --json").out);
+  REQUIRE(found["complementarity"].size() == 11);
+  CHECK(found["complementarity"][10] == residual);
+  CHECK(folder.run("run " + other + " --until 0.1").out.find("complementarity") == std::string::npos);
+}
+
 TEST_CASE("a failing run leaves what was there as it was, and writes nothing beside it") {
   const Folder folder;
   folder.write("bad.json", faulty_document);

@@ -1,6 +1,7 @@
 #include "support.h"
 
 #include <tweenfall/importers/document.h>
+#include <tweenfall/importers/recording_file.h>
 #include <tweenfall/physics/stage/stage.h>
 
 #include <cmath>
@@ -183,6 +184,17 @@ TEST_CASE("the stack stands by every solver but the sequential one, into which i
     else
       CHECK(sunk < 0.01);
   }
+}
+
+TEST_CASE(
+    "a run of the stack by the lcp solver tells how well complementarity is met, and other runs have no such word") {
+  Stage stage = lecture("stacking/lcp"), iterative = lecture("stacking/iterative");
+  const Recording recording = record(stage, 3, 30);
+  REQUIRE(recording.complementarity.size() == recording.times.size());
+  CHECK(recording.complementarity.back() > 0);
+  CHECK(recording.complementarity.back() < 1e-9);
+  CHECK(recording_json(recording).find("\"complementarity\": [0,") != std::string::npos);
+  CHECK(recording_json(record(iterative, 0.1, 30)).find("complementarity") == std::string::npos);
 }
 
 TEST_CASE("what falls lies in the same places to the bit by whichever search its pairs are found") {

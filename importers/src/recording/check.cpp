@@ -147,6 +147,7 @@ void check_recording(const Recording& recording) {
                                       std::to_string(recording.times.size()) + " frames");
   };
   if (!recording.energy.empty()) require_frames("the energy of bodies", recording.energy.size());
+  if (!recording.complementarity.empty()) require_frames("the complementarity", recording.complementarity.size());
   for (const VehicleRecord& vehicle : recording.vehicles) {
     require_frames("vehicle \"" + vehicle.name + "\"", vehicle.frame.size());
     for (const std::vector<StageWheel>& wheels : vehicle.frame)

@@ -266,6 +266,11 @@ std::string recording_json(const Recording& recording) {
     out += ",\n \"energy\": ";
     recordings::append_energy(out, recording.energy);
   }
+  if (!recording.complementarity.empty()) {
+    out += ",\n \"complementarity\": ";
+    recordings::append_list(out, recording.complementarity.size(),
+                            [&](std::size_t i) { append_number(out, recording.complementarity[i]); });
+  }
   if (!recording.vehicles.empty()) {
     out += ",\n \"vehicles\": ";
     recordings::append_lines(out, '{', '}', recording.vehicles.size(),

@@ -1,6 +1,7 @@
 #include <tweenfall/anim/graph_player.h>
 #include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
+#include <tweenfall/physics/strategies.h>
 
 #include <algorithm>
 #include <cmath>
@@ -192,6 +193,11 @@ std::vector<JointEnds> Stage::joints() const {
 StageEnergy Stage::energy() const {
   const auto [from, to] = inside().around();
   return staging::stage_energy(*from, *to, time());
+}
+
+std::optional<double> Stage::complementarity() const {
+  if (inside().description.world.solver != ContactSolver::lcp) return std::nullopt;
+  return inside().current().complementarity;
 }
 
 std::vector<StageWheel> Stage::vehicle(std::string_view name) const {

@@ -228,7 +228,8 @@ struct StageState {
   std::vector<Strain> strained;                    ///< by pair
   std::vector<Squeeze> squeezed;                   ///< by body, of the last moments
   std::vector<Tear> torn;                          ///< by joint
-  bool jumped = true;  ///< some path may have jumped at `time`: keyed bodies are put on it before going on
+  double complementarity = 0;  ///< greatest residual of all steps so far where the solver is `lcp`, m/s
+  bool jumped = true;          ///< some path may have jumped at `time`: keyed bodies are put on it before going on
 
   [[nodiscard]] StagedBody* body(NodeId node) {
     return node < body_of.size() && body_of[node] != no_body ? &bodies[body_of[node]] : nullptr;

@@ -89,6 +89,12 @@ std::string joints_table(const Recording& recording) {
   return table.empty() ? "" : table.text(styled_output());
 }
 
+std::string complementarity_line(const Recording& recording) {
+  if (recording.complementarity.empty()) return "";
+  return "\ncomplementarity of contacts: residual of at most " + number_text(recording.complementarity.back()) +
+         " m/s\n";
+}
+
 /// Says how many particles a .glb leaves out.
 void say_thinned(const Recording& recording) {
   for (const ParticlesRecord& particles : recording.particles) {
@@ -124,7 +130,8 @@ int run_file(const RunFileOptions& options) {
     print(recording_json(recording));
   } else if (!options.output) {
     print(terminal_text(read.stage.name + ": " + summary_of(recording)) + "\n" + handoffs_table(recording) +
-          events_table(recording) + ends_table(recording, read.stage) + joints_table(recording));
+          events_table(recording) + ends_table(recording, read.stage) + joints_table(recording) +
+          complementarity_line(recording));
   }
   return 0;
 }

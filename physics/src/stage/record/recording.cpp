@@ -192,6 +192,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     staging::take_joints(stage, recording);
     staging::take_softs(stage, recording);
     recording.energy.push_back(stage.energy());
+    if (const std::optional<double> off = stage.complementarity()) recording.complementarity.push_back(*off);
     staging::take_vehicles(stage, recording);
     staging::take_particles(stage, recording, particle_room);
     if (details) details = staging::take_details(stage, recording, room);

@@ -1,3 +1,5 @@
+#include <tweenfall/physics/detail.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -260,6 +262,7 @@ void step_told_world(StageState& state, double end, double step, std::vector<Hap
   const ParticleStep particles(state);
   drive_vehicles(state, end - state.time);
   state.world.step(end - state.time, step);
+  state.complementarity = std::max(state.complementarity, complementarity_residual(state.world));
   state.time = end;
   particles.take(state);
   state.presses.assign(state.node_of.size(), 0);

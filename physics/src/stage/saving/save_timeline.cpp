@@ -15,7 +15,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-constexpr saving::Envelope stage_envelope{"stage", 6};
+constexpr saving::Envelope stage_envelope{"stage", 7};
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("a saved stage has a bad " + what);
@@ -31,6 +31,7 @@ void each_moving_field(State& state, const Visit& visit) {
   for (auto& armed : state.armed) visit(armed);
   visit(state.blows, state.presses, state.passing, state.strained, state.torn);
   visit.rarely(state.squeezed);
+  visit(state.complementarity);
   for (auto& staged : state.vehicles) visit(staged);
   for (auto& staged : state.particles) visit(staged);
 }
@@ -60,6 +61,7 @@ void check_time(const StageState& state, double now, bool between, double step) 
   require(now <= (between ? end : state.time + sliver) && now >= state.time - sliver,
           "time: it is not near that of its state");
   require(state.splits >= 0 && state.splits <= 1024, "number of splits");
+  require(state.complementarity >= 0, "residual of complementarity");
 }
 
 void check_ramp(const Ramp& ramp) {

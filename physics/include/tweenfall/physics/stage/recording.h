@@ -94,6 +94,7 @@ struct Recording {
   std::vector<VehicleRecord> vehicles;     ///< likewise
   std::vector<ParticlesRecord> particles;  ///< likewise
   std::vector<StageEnergy> energy;         ///< one per frame, or empty
+  std::vector<double> complementarity;     ///< of a stage with the solver `lcp`, one per frame; else empty
   std::vector<HandOff> handoffs;
   std::vector<StageEvent> events;
   std::vector<JumpRecord> jumps;     ///< in order of time, of each node the first of a kind in each frame

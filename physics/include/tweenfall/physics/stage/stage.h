@@ -143,6 +143,9 @@ class Stage {
   [[nodiscard]] std::vector<StageWheel> vehicle(std::string_view name) const;
   [[nodiscard]] StageParticles particles(std::string_view name) const;  ///< @throws the same
   [[nodiscard]] StageEnergy energy() const;                             ///< between two steps: linearly interpolated
+  /// The greatest `complementarity_residual` (`detail.h`) of all steps until `time()`, m/s; empty unless the world's
+  /// solver is `lcp`.
+  [[nodiscard]] std::optional<double> complementarity() const;
   [[nodiscard]] Path path(NodeId node) const;                           ///< where the animation wants the node
   [[nodiscard]] const StageDescription& description() const;
 
