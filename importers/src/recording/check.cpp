@@ -146,7 +146,7 @@ void check_recording(const Recording& recording) {
       recordings::fail(recording, what + " has " + std::to_string(frames) + " lists for " +
                                       std::to_string(recording.times.size()) + " frames");
   };
-  if (!recording.energy.empty()) require_frames("the energy of bodies", recording.energy.size());
+  if (!recording.energy.empty()) require_frames("the energy", recording.energy.size());
   if (!recording.complementarity.empty()) require_frames("the complementarity", recording.complementarity.size());
   for (const VehicleRecord& vehicle : recording.vehicles) {
     require_frames("vehicle \"" + vehicle.name + "\"", vehicle.frame.size());

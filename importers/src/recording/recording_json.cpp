@@ -154,8 +154,13 @@ void append_particles(std::string& out, const ParticlesRecord& particles) {
   out += "}";
 }
 
-/// Energies of bodies, frame by frame; null for a force without energy.
-void append_energy(std::string& out, const std::vector<StageEnergy>& energy) {
+/// Energies, frame by frame; null for a force without energy.
+void append_energy(std::string& out, const Recording& recording) {
+  const std::vector<StageEnergy>& energy = recording.energy;
+  for (const StageEnergy& one : energy)
+    if (one.softs.size() != recording.softs.size() || one.particles.size() != recording.particles.size())
+      throw RecordingFault(recording, no_node,
+                           "the energy tells of more or fewer soft bodies or kinds of particles than there are");
   const auto series = [&](const char* name, const auto& append_at) {
     out += name;
     append_list(out, energy.size(), [&](std::size_t frame) { append_at(energy[frame]); });
@@ -171,6 +176,31 @@ void append_energy(std::string& out, const std::vector<StageEnergy>& energy) {
         out += "null";
     });
   });
+  const auto part_of = [&](const char* name, const auto& part) {
+    series(name, [&](const StageEnergy& one) { append_number(out, part(one)); });
+  };
+  const auto named = [&](const char* word, const auto& records, const auto& append_one) {
+    if (records.empty()) return;
+    (out += ",\n  \"") += word;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      out += i == 0 ? "\": {" : ", ";
+      json::append_string(out, records[i].name);
+      out += ": ";
+      append_one(i);
+      out += "}";
+    }
+    out += "}";
+  };
+  named("soft", recording.softs, [&](std::size_t i) {
+    part_of("{\"kinetic\": ", [i](const StageEnergy& one) { return one.softs[i].kinetic; });
+    part_of(", \"elastic\": ", [i](const StageEnergy& one) { return one.softs[i].elastic; });
+    part_of(", \"weight\": ", [i](const StageEnergy& one) { return one.softs[i].weight; });
+  });
+  named("particles", recording.particles, [&](std::size_t i) {
+    part_of("{\"kinetic\": ", [i](const StageEnergy& one) { return one.particles[i].kinetic; });
+    part_of(", \"weight\": ", [i](const StageEnergy& one) { return one.particles[i].weight; });
+  });
+  part_of(",\n  \"total\": ", [](const StageEnergy& one) { return one.total(); });
   out += "}";
 }
 
@@ -264,7 +294,7 @@ std::string recording_json(const Recording& recording) {
   }
   if (!recording.energy.empty()) {
     out += ",\n \"energy\": ";
-    recordings::append_energy(out, recording.energy);
+    recordings::append_energy(out, recording);
   }
   if (!recording.complementarity.empty()) {
     out += ",\n \"complementarity\": ";

@@ -64,6 +64,29 @@ Run laid_rope(bool tears) {
 
 }  // namespace
 
+TEST_CASE("a recording as JSON gives the energies of soft bodies and particles by name, and the total of all") {
+  const Run rope("soft/rope_positions", 0.5, 10), water("particles/fountain", 0.5, 10);
+  const auto json_of = [](const Run& run) { return nlohmann::json::parse(recording_json(run.recording)); };
+  const nlohmann::json hung = json_of(rope)["energy"], flown = json_of(water)["energy"];
+  const std::size_t last = rope.recording.times.size() - 1;
+  const StageEnergy& energy = rope.recording.energy[last];
+  CHECK(hung["soft"]["rope"]["kinetic"][last] == energy.softs[0].kinetic);
+  CHECK(hung["soft"]["rope"]["elastic"][last] == energy.softs[0].elastic);
+  CHECK(hung["soft"]["rope"]["weight"][last] == energy.softs[0].weight);
+  CHECK(hung["total"][last] == energy.total());
+  CHECK(!hung.contains("particles"));
+  CHECK(flown["particles"]["water"]["kinetic"][0] == 0);
+  CHECK(flown["particles"]["water"]["kinetic"][last] == water.recording.energy[last].particles[0].kinetic);
+  CHECK(flown["particles"]["water"]["weight"][last] == water.recording.energy[last].particles[0].weight);
+  CHECK(flown["total"][last] == water.recording.energy[last].total());
+  CHECK(!flown.contains("soft"));
+  Run odd = rope;
+  odd.recording.energy[1].softs.clear();
+  CHECK_THROWS_WITH(
+      static_cast<void>(recording_json(odd.recording)),
+      doctest::Contains("the energy tells of more or fewer soft bodies or kinds of particles than there are"));
+}
+
 TEST_CASE("the moving picture draws a rope as one line through its nodes, and one that tears in pieces") {
   const Run whole = laid_rope(false);
   std::size_t lines = 0;

@@ -81,11 +81,22 @@ struct StageParticles {
   std::vector<std::uint64_t> numbers;  ///< identify each particle for its whole life
 };
 
-/// Energies of a stage's bodies, J.
+/// Energies of particles of one kind, J.
+struct ParticlesEnergy {
+  double kinetic = 0;
+  double weight = 0;  ///< against gravity, 0 at the origin
+};
+
+/// Energies of a stage, J.
 struct StageEnergy {
   double kinetic = 0;                         ///< of all free bodies
-  double weight = 0;                          ///< against gravity, 0 at the origin
+  double weight = 0;                          ///< of these, against gravity, 0 at the origin
   std::vector<std::optional<double>> forces;  ///< for each force of the description, if it has a potential energy
+  std::vector<SoftEnergy> softs;              ///< for each soft body of the description
+  std::vector<ParticlesEnergy> particles;     ///< for each kind of particles of the description
+
+  /// Of all of these. What springs and drives of joints store, and forces on particles, have no part in it.
+  [[nodiscard]] double total() const;
 };
 
 /// A rule that never fired for one of its bodies.
@@ -146,7 +157,7 @@ class Stage {
   /// The greatest `complementarity_residual` (`detail.h`) of all steps until `time()`, m/s; empty unless the world's
   /// solver is `lcp`.
   [[nodiscard]] std::optional<double> complementarity() const;
-  [[nodiscard]] Path path(NodeId node) const;                           ///< where the animation wants the node
+  [[nodiscard]] Path path(NodeId node) const;  ///< where the animation wants the node
   [[nodiscard]] const StageDescription& description() const;
 
   // Hand-off by the caller, at exactly `time()`. @throws NodeNotFinite when the path the body takes over is too fast
