@@ -112,11 +112,17 @@ struct World::Implementation : state::WorldState, step::Workspace {
       std::span<contacts::ContactConstraint* const> contacts) const;
   /// What overlaps at the end of the step, and is looked for only then, responds together with what touches it.
   /// @param found_at  where bodies were when the contacts were found, by index
+  /// @param left  time of the step since then, s
   /// @return the residual of complementarity, m/s
   double respond_late(std::span<contacts::ContactConstraint* const> contacts, std::span<const step::Start> found_at,
-                      double dt, strategies::IslandByStrategies& by);
-  /// @param cut  the contacts were found within the step, not at its start
-  void separate(std::span<contacts::ContactConstraint* const> overlapping, bool cut = false);
+                      double left, double dt, strategies::IslandByStrategies& by);
+  /// A contact where its bodies are now; without points if they are apart there.
+  /// @param from_a, from_b  where they were when it was found
+  [[nodiscard]] contacts::ContactConstraint overlap_now(const contacts::ContactConstraint& contact,
+                                                        const state::Body& a, const state::Body& b,
+                                                        const step::Start& from_a, const step::Start& from_b) const;
+  /// @param found_at  as above
+  void separate(std::span<contacts::ContactConstraint* const> overlapping, std::span<const step::Start> found_at);
   [[nodiscard]] bool goes_by_impacts() const;
   /// Steps the whole world from impact to impact.
   void solve_by_impacts(double dt);

@@ -41,8 +41,8 @@ std::uint32_t IslandByStrategies::party_of(const std::vector<Body>& bodies, std:
     party.angular = body.twist.angular;
   } else if (body.immovable() && part.left > 0) {
     const step::KeyedCourse course = step::keyed_course(body, part.left);
-    const Twist led =
-        part.h > 0 ? course.mean_between(0, part.h / part.left, part.left) : course.velocity(0, part.left);
+    const Twist led = part.h > 0 ? course.mean_between(0, part.h / part.left, part.left)
+                                 : course.velocity(part.late ? 1 : 0, part.left);
     party.linear = led.linear;
     party.angular = led.angular;
   }

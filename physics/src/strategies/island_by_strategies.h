@@ -16,6 +16,7 @@ struct Part {
   double h = 0;       ///< its length, s; 0 for a single instant
   double left = 0;    ///< time from its start to the end of the step, s
   double step = 0;    ///< the whole step, s: speeds below what gravity gives in it are no blows
+  bool late = false;  ///< an instant at the end of the step
   bool blows = true;  ///< bodies that are watched to the time of their impact bounce, too
 };
 

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <tuple>
 
 #include "collision/surfaces/surface.h"
 #include "contacts/meeting.h"
 #include "state/world_data.h"
 #include "step/keyed_step.h"
+#include "strategies/arrived.h"
 #include "strategies/detection.h"
 #include "strategies/separations/separations.h"
 #include "strategies/touching.h"
@@ -75,34 +77,6 @@ double time_of_blow(const ContactConstraint& contact, const std::vector<Body>& b
   return first;
 }
 
-/// A contact for the present positions of its bodies; without points if they are apart.
-/// @param found_at  where bodies were when it was found, by index
-/// @param find  finds a manifold again for a contact whose points have been forgotten
-template <class Find>
-ContactConstraint overlap_now(const ContactConstraint& contact, const std::vector<Body>& bodies,
-                              std::span<const step::Start> found_at, const Find& find) {
-  const Body &a = bodies[contact.a], &b = bodies[contact.b];
-  if (!surfaces::surface_of(a.shape().solid) && !surfaces::surface_of(b.shape().solid)) {
-    ContactConstraint now = small::looked_for_again(contact);
-    if (!find(now, small::way_of(a, contact.part_a, {}, instant), small::way_of(b, contact.part_b, {}, instant)))
-      now.count = 0;
-    return now;
-  }
-  // For a mesh or a field, the triangle is known: it is treated as a plane.
-  ContactConstraint now = contact;
-  const step::Start &from_a = found_at[contact.a], &from_b = found_at[contact.b];
-  for (int i = 0; i < now.count; ++i) {
-    PointConstraint& point = now.points[static_cast<std::size_t>(i)];
-    const Vec3 arm_a = a.motion.pose.rotation * (from_a.rotation.conjugate() * point.start_arm_a);
-    const Vec3 arm_b = b.motion.pose.rotation * (from_b.rotation.conjugate() * point.start_arm_b);
-    point.start_gap += now.manifold.normal.dot(b.center + arm_b - from_b.center - point.start_arm_b - a.center - arm_a +
-                                               from_a.center + point.start_arm_a);
-    point.start_arm_a = arm_a;
-    point.start_arm_b = arm_b;
-  }
-  return now;
-}
-
 /// Adds what a contact got when it was found once more.
 void add_totals(ContactConstraint& contact, const ContactConstraint& again) {
   PointConstraint& first = contact.points[0];
@@ -130,7 +104,7 @@ class Sums {
       }
       forget_totals(*contact);
       if (normal == 0 && approach == 0) continue;
-      Sum& sum = of(*contact);
+      Sum& sum = sums_.try_emplace(key(*contact), Sum{*contact}).first->second;
       sum.normal += normal;
       sum.total += total;
       sum.approach = std::max(sum.approach, approach);
@@ -143,7 +117,7 @@ class Sums {
     gone.reserve(sums_.size());
     const auto is_before = [](const ContactConstraint* a, const ContactConstraint* b) { return key(*a) < key(*b); };
     const auto present = static_cast<std::ptrdiff_t>(active.size());
-    for (Sum& sum : sums_) {
+    for (auto& [pair, sum] : sums_) {
       if (std::binary_search(active.begin(), active.begin() + present, &sum.contact, is_before)) continue;
       gone.push_back(sum.contact);
       active.push_back(&gone.back());
@@ -153,13 +127,13 @@ class Sums {
       // Its manifold is not from the start of the step.
       contact->kept = false;
       contact->impact_time = dt;
-      const auto found =
-          std::find_if(sums_.begin(), sums_.end(), [&](const Sum& sum) { return key(sum.contact) == key(*contact); });
+      const auto found = sums_.find(key(*contact));
       if (found == sums_.end()) continue;
+      const Sum& sum = found->second;
       PointConstraint& first = contact->points[0];
-      first.total_normal = found->normal;
-      first.total_friction = found->total - found->normal * contact->manifold.normal;
-      first.approach = found->approach;
+      first.total_normal = sum.normal;
+      first.total_friction = sum.total - sum.normal * contact->manifold.normal;
+      first.approach = sum.approach;
     }
   }
 
@@ -169,17 +143,11 @@ class Sums {
     double normal = 0, approach = 0;
     Vec3 total{0, 0, 0};
   };
-  static std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t> key(const ContactConstraint& contact) {
-    return {contact.a, contact.b, contact.part_a, contact.part_b};
-  }
-  Sum& of(const ContactConstraint& contact) {
-    for (Sum& sum : sums_)
-      if (key(sum.contact) == key(contact)) return sum;
-    sums_.push_back({contact, 0, 0, Vec3::Zero()});
-    return sums_.back();
-  }
+  /// Two bodies, and a part of each.
+  using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
+  static Key key(const ContactConstraint& contact) { return {contact.a, contact.b, contact.part_a, contact.part_b}; }
 
-  std::vector<Sum> sums_;
+  std::map<Key, Sum> sums_;
 };
 
 }  // namespace
@@ -210,8 +178,8 @@ double World::Implementation::solve_by_strategies(const islands::IslandContents&
   double off = by.respond(bodies, loads, foreseen(island.contacts), settings,
                           {.h = dt, .left = dt, .step = dt * part_count}, moved);
   fly_all();
-  off = std::max(off, respond_late(island.contacts, starts, dt, by));
-  separate(island.contacts);
+  off = std::max(off, respond_late(island.contacts, starts, dt, dt, by));
+  separate(island.contacts, starts);
   return off;
 }
 
@@ -223,21 +191,44 @@ std::vector<contacts::ContactConstraint*> World::Implementation::foreseen(
   return those;
 }
 
+contacts::ContactConstraint World::Implementation::overlap_now(const contacts::ContactConstraint& contact,
+                                                               const state::Body& a, const state::Body& b,
+                                                               const step::Start& from_a,
+                                                               const step::Start& from_b) const {
+  if (!surfaces::surface_of(a.shape().solid) && !surfaces::surface_of(b.shape().solid)) {
+    contacts::ContactConstraint now = small::looked_for_again(contact);
+    if (!find_manifold(now, a, b, small::way_of(a, contact.part_a, {}, strategies::instant),
+                       small::way_of(b, contact.part_b, {}, strategies::instant), strategies::instant, nullptr))
+      now.count = 0;
+    return now;
+  }
+  // For a mesh or a field, the triangle is known: it is treated as a plane.
+  contacts::ContactConstraint now = contact;
+  for (int i = 0; i < now.count; ++i) {
+    contacts::PointConstraint& point = now.points[static_cast<std::size_t>(i)];
+    const Vec3 arm_a = a.motion.pose.rotation * (from_a.rotation.conjugate() * point.start_arm_a);
+    const Vec3 arm_b = b.motion.pose.rotation * (from_b.rotation.conjugate() * point.start_arm_b);
+    point.start_gap += now.manifold.normal.dot(b.center + arm_b - from_b.center - point.start_arm_b - a.center - arm_a +
+                                               from_a.center + point.start_arm_a);
+    point.start_arm_a = arm_a;
+    point.start_arm_b = arm_b;
+  }
+  return now;
+}
+
 double World::Implementation::respond_late(std::span<contacts::ContactConstraint* const> contacts,
-                                           std::span<const step::Start> found_at, double dt,
+                                           std::span<const step::Start> found_at, double left, double dt,
                                            strategies::IslandByStrategies& by) {
-  const auto find = [this](contacts::ContactConstraint& contact, const collision::Passage& way_a,
-                           const collision::Passage& way_b) {
-    return find_manifold(contact, bodies[contact.a], bodies[contact.b], way_a, way_b, strategies::instant, nullptr);
-  };
   const auto is_late = [this](const auto* contact) { return detection_of(*contact) == Detection::discrete; };
   if (std::none_of(contacts.begin(), contacts.end(), is_late)) return 0;
   std::vector<contacts::ContactConstraint> again;  // of what has responded already
   std::vector<contacts::ContactConstraint*> responded, met;
   again.reserve(contacts.size());
+  const strategies::Arrived arrived(bodies, contacts);
   for (contacts::ContactConstraint* contact : contacts) {
     const bool late = is_late(contact);
-    contacts::ContactConstraint now = strategies::overlap_now(*contact, bodies, found_at, find);
+    contacts::ContactConstraint now =
+        overlap_now(*contact, arrived[contact->a], arrived[contact->b], found_at[contact->a], found_at[contact->b]);
     now.kept = false;
     now.impact_time = dt;
     if (late) {
@@ -255,7 +246,8 @@ double World::Implementation::respond_late(std::span<contacts::ContactConstraint
       met.push_back(&again.back());
     }
   }
-  const double off = by.respond(bodies, loads, met, settings, {.h = 0, .left = dt, .step = dt * part_count}, moved);
+  const double off =
+      by.respond(bodies, loads, met, settings, {.h = 0, .left = left, .step = dt * part_count, .late = true}, moved);
   for (std::size_t i = 0; i < again.size(); ++i) strategies::add_totals(*responded[i], again[i]);
   return off;
 }
@@ -270,28 +262,31 @@ void World::Implementation::fly_alone(std::uint32_t index, double h, double dt) 
   moved[index] = 1;
 }
 
-void World::Implementation::separate(std::span<contacts::ContactConstraint* const> overlapping, bool cut) {
-  // For a mesh or a field, it is known where it was met at the start of the step.
-  const auto lost = [&](const contacts::ContactConstraint& contact) {
-    return (cut || detection_of(contact) != Detection::ahead) &&
-           (surfaces::surface_of(bodies[contact.a].shape().solid) ||
-            surfaces::surface_of(bodies[contact.b].shape().solid));
-  };
-  const auto find = [this](contacts::ContactConstraint& contact, const collision::Passage& way_a,
-                           const collision::Passage& way_b) {
-    return find_manifold(contact, bodies[contact.a], bodies[contact.b], way_a, way_b, strategies::instant, nullptr);
-  };
+void World::Implementation::separate(std::span<contacts::ContactConstraint* const> overlapping,
+                                     std::span<const step::Start> found_at) {
+  const strategies::Arrived arrived(bodies, overlapping);
+  // What is looked for late has been found for the present places.
+  std::vector<step::Start> places;
+  places.reserve(2 * overlapping.size());
+  for (const contacts::ContactConstraint* contact : overlapping)
+    for (const std::uint32_t index : {contact->a, contact->b}) {
+      const state::Body& body = arrived[index];
+      places.push_back(detection_of(*contact) == Detection::discrete
+                           ? step::Start{body.center, body.motion.pose.rotation, {}, false}
+                           : found_at[index]);
+    }
   strategies::Separates* const part = strategies::separation_of(settings.separation);
   const int passes = settings.solver == ContactSolver::sequential ? 1 : settings.iterations;
   for (int pass = 0; pass < passes; ++pass) {
     bool moved_apart = false;
-    for (const contacts::ContactConstraint* contact : overlapping) {
-      state::Body &a = bodies[contact->a], &b = bodies[contact->b];
+    for (std::size_t k = 0; k < overlapping.size(); ++k) {
+      const contacts::ContactConstraint* const contact = overlapping[k];
       strategies::Overlap overlap;
-      overlap.a = strategies::place_of(a);
-      overlap.b = strategies::place_of(b);
-      if ((!overlap.a.movable && !overlap.b.movable) || lost(*contact)) continue;
-      const contacts::ContactConstraint now = strategies::overlap_now(*contact, bodies, starts, find);
+      overlap.a = strategies::place_of(arrived[contact->a]);
+      overlap.b = strategies::place_of(arrived[contact->b]);
+      if (!overlap.a.movable && !overlap.b.movable) continue;
+      const contacts::ContactConstraint now =
+          overlap_now(*contact, arrived[contact->a], arrived[contact->b], places[2 * k], places[2 * k + 1]);
       if (now.count == 0) continue;
       overlap.normal = now.manifold.normal;
       overlap.count = now.count;
@@ -300,10 +295,10 @@ void World::Implementation::separate(std::span<contacts::ContactConstraint* cons
       if (!(overlap.depth() > strategies::no_depth)) continue;
       moved_apart = true;
       part(overlap);
-      for (const auto& [body, place] : {std::pair(&a, &overlap.a), std::pair(&b, &overlap.b)}) {
+      for (const auto& [index, place] : {std::pair(contact->a, &overlap.a), std::pair(contact->b, &overlap.b)}) {
         if (!place->movable) continue;
-        body->center = place->center;
-        body->follow_center(place->rotation);
+        bodies[index].center = place->center;
+        bodies[index].follow_center(place->rotation);
       }
     }
     if (!moved_apart) return;
@@ -329,8 +324,7 @@ void World::Implementation::solve_by_impacts(double dt) {
   const double soon = strategies::meets_now * dt;
   double left = dt;
   int at_once = 0;
-  std::vector<step::Start> found_at;  // needed where something may be looked for at the end of the step alone
-  if (other_detections > 0) found_at = starts;
+  std::vector<step::Start> found_at = starts;
   const auto go = [&](double h, bool blows) {
     moved.assign(bodies.size(), 0);
     for (contacts::ContactConstraint* contact : active) strategies::forget_totals(*contact);
@@ -349,8 +343,8 @@ void World::Implementation::solve_by_impacts(double dt) {
     if (first > left || i == strategies::most_instants || at_once == strategies::most_blows_at_once) {
       go(left, first <= left);
       sums.add(active);
-      complementarity = std::max(complementarity, respond_late(active, found_at, dt, by));
-      separate(active, i > 0);
+      complementarity = std::max(complementarity, respond_late(active, found_at, left, dt, by));
+      separate(active, found_at);
       break;
     }
     const double h = first <= soon ? 0 : std::min(first, left);
@@ -363,7 +357,6 @@ void World::Implementation::solve_by_impacts(double dt) {
                            flight);
       find_constraints(left);
     } while (wake_islands());
-    if (found_at.empty()) continue;
     for (const std::uint32_t index : watched) {
       found_at[index].center = bodies[index].center;
       found_at[index].rotation = bodies[index].motion.pose.rotation;
