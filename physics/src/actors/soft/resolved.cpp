@@ -41,9 +41,17 @@ double give(const SoftSettings& made, const SoftEnclosure& enclosure) {
   return sum;
 }
 
-/// A node of a volume has twice as many edges as one of a cloth, and tetrahedra besides: passes resolve less of each.
-double share_of_each(const SoftSettings& made) {
-  return made.tetrahedra.empty() ? 1 : 0.25;
+/// How much of each constraint one of several passes resolves. A node of a volume has twice as many edges as one of a
+/// cloth, and tetrahedra besides: that is less, and less still of the damping of its edges. More than these numbers let
+/// a cantilevered bar gain energy.
+constexpr double share_in_volume = 0.25, damping_in_volume = 0.0625;
+/// What the pass of a volume resolves if there is no other that takes back what it did too much.
+constexpr double share_alone = 0.05;
+
+/// How much of each constraint all passes resolve.
+double resolved_share(const SoftSettings& made, double of_one = share_in_volume) {
+  if (made.tetrahedra.empty()) return *made.iterations;
+  return *made.iterations == 1 ? share_alone : of_one * *made.iterations;
 }
 
 bool is_chained(const SoftSettings& made) {
@@ -60,13 +68,13 @@ bool passes_over_edges(const SoftBody& body) {
 }
 
 double resolved_stiffness(const SoftSettings& made, const SoftEdge& edge, double h) {
-  return std::min(edge.stiffness, share_of_each(made) * *made.iterations / (give(made, edge) * h * h));
+  return std::min(edge.stiffness, resolved_share(made) / (give(made, edge) * h * h));
 }
 
 Resolved resolved(const SoftBody& body, const SoftEdge& edge) {
   const SoftSettings& made = *body.made;
   return {resolved_stiffness(made, edge, body.pace),
-          std::min(edge.damping, share_of_each(made) * *made.iterations / (give(made, edge) * body.pace))};
+          std::min(edge.damping, resolved_share(made, damping_in_volume) / (give(made, edge) * body.pace))};
 }
 
 double resolved_stiffness(const SoftBody& body, const SoftBend& bend) {
@@ -77,7 +85,7 @@ double resolved_stiffness(const SoftBody& body, const SoftBend& bend) {
 double resolved_stiffness(const SoftSettings& made, const SoftTetrahedron& solid, double h) {
   const double stiffness = solid.stiffness / *solid.volume;
   if (made.solver == SoftSolver::springs) return stiffness;
-  return std::min(stiffness, share_of_each(made) * *made.iterations / (give(made, solid) * h * h));
+  return std::min(stiffness, resolved_share(made) / (give(made, solid) * h * h));
 }
 
 double resolved_stiffness(const SoftSettings& made, const SoftEnclosure& enclosure, double h) {
@@ -89,17 +97,20 @@ double resolved_stiffness(const SoftSettings& made, const SoftEnclosure& enclosu
 int enough_iterations(const SoftSettings& made) {
   if (made.solver == SoftSolver::springs) return 1;
   const double h = *made.sub_step;
+  const bool is_volume = !made.tetrahedra.empty();
+  const double share = is_volume ? share_in_volume : 1, damping_share = is_volume ? damping_in_volume : 1;
   double stiffest = 0;
   if (!is_chained(made))
     for (const SoftEdge& edge : made.edges)
-      stiffest = std::max(stiffest, (edge.stiffness * h + edge.damping) * h * give(made, edge) / share_of_each(made));
+      stiffest = std::max(stiffest, (edge.stiffness * h / share + edge.damping / damping_share) * h * give(made, edge));
   for (const SoftBend& bend : made.bends) stiffest = std::max(stiffest, bend.stiffness * h * h * give(made, bend));
   for (const SoftTetrahedron& solid : made.tetrahedra)
-    stiffest = std::max(stiffest, solid.stiffness / *solid.volume * h * h * give(made, solid) / share_of_each(made));
+    stiffest = std::max(stiffest, solid.stiffness / *solid.volume * h * h * give(made, solid) / share);
   for (const SoftEnclosure& enclosure : made.enclosures)
     stiffest = std::max(stiffest, enclosure.stiffness / *enclosure.volume * h * h * give(made, enclosure));
   // One alone leaves more of what is half as stiff than two of what is twice as stiff.
-  return stiffest <= 0.5 ? 1 : static_cast<int>(std::clamp(std::ceil(stiffest), 2.0, 4.0));
+  const double enough_for_one = is_volume ? share_alone / share_in_volume : 0.5;
+  return stiffest <= enough_for_one ? 1 : static_cast<int>(std::clamp(std::ceil(stiffest), 2.0, 4.0));
 }
 
 }  // namespace tweenfall::soft
