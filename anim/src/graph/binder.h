@@ -36,6 +36,7 @@ struct Graph::Compiled {
   const graphs::Operation* output = nullptr;
   std::size_t phases = 0;                            // operations whose clips run in phase
   std::size_t swings = 0;                            // operations with springs
+  double looks_ahead = 0;                            // s; how far ahead springs look, each at what others make of it
   std::size_t travels = 0;                           // operations that accumulate root motion
   std::size_t recent = 0;                            // operations that remember their recent poses
   std::vector<char> moved;                           // by node: whether an operation moves it
@@ -86,7 +87,11 @@ class Binder {
   [[nodiscard]] JointMask mask(const std::vector<MaskPart>& parts, const Place& place);
   [[nodiscard]] std::size_t machine_number() const noexcept;
   [[nodiscard]] std::size_t new_phase() noexcept { return compiled_->phases++; }
-  [[nodiscard]] std::size_t new_swing() noexcept { return compiled_->swings++; }
+  /// @param step  of the grid of its springs, s: they look ahead by as much
+  [[nodiscard]] std::size_t new_swing(double step) noexcept {
+    compiled_->looks_ahead += step;
+    return compiled_->swings++;
+  }
   [[nodiscard]] std::size_t new_travel() noexcept { return compiled_->travels++; }
   void fault(const Place& place, std::string message);
   /// Calls `make`, which may throw. @returns whether it did not; each problem that the exception lists is reported

@@ -62,7 +62,7 @@ GraphPlayer::GraphPlayer(const GraphPlayer& other, GraphGround ground, double fr
   run_->log = other.run_->log;
   run_->time = other.run_->time;
   lie_on(std::move(ground));
-  graphs::forget_course(run_->log, graph_->description(), from);
+  graphs::forget_course(run_->log, graph_->description(), std::max(0.0, from - graph_->compiled().looks_ahead));
   know(run_->time);
 }
 

@@ -44,8 +44,20 @@ struct GraphStack::Runner {
     else
       player.send(input.name);
     // The graphs above have another ground from then on.
-    for (std::size_t i = graph + 1; i < players.size(); ++i) players[i] = GraphPlayer(players[i], over(i), input.time);
+    double from = input.time;
+    for (std::size_t i = graph + 1; i < players.size(); ++i) lay(i, players[i], from);
     for (Kept& each : kept) each.time = -1;
+  }
+
+  /// Lays a graph over those below it, which differ from a time on from what it lay on.
+  /// @param from  s; then from when on the graph itself may differ: its springs have looked ahead
+  void lay(std::size_t graph, const GraphPlayer& before, double& from) {
+    GraphPlayer player(before, over(graph), from);
+    if (graph < players.size())
+      players[graph] = std::move(player);
+    else
+      players.push_back(std::move(player));
+    from -= players[graph].graph().compiled().looks_ahead;
   }
 
   [[nodiscard]] const std::vector<Motion>& kept_at(double time, Side side) {
@@ -96,14 +108,21 @@ class GraphStack::Lent {
 
 GraphStack::GraphStack(const std::shared_ptr<const Hierarchy>& nodes,
                        const std::shared_ptr<const std::vector<Clip>>& clips,
-                       std::vector<GraphDescription> descriptions, const Animation& plays)
+                       std::vector<GraphDescription> descriptions, const Animation& plays, std::vector<double> changes)
     : descriptions_(std::make_shared<const std::vector<GraphDescription>>(std::move(descriptions))),
       nodes_(nodes->size()),
       jumps_(std::make_shared<GroundJumps>()),
-      plays_(ground_of(plays, jumps_, {})) {
+      changes_(std::move(changes)),
+      plays_(ground_of(plays, jumps_, changes_)) {
   for (const GraphDescription& each : *descriptions_)
     graphs_.push_back(std::make_shared<const Graph>(nodes, clips, each));
   idle_[0] = new_runner().release();
+}
+
+GraphStack::GraphStack(const GraphStack& other, const std::shared_ptr<const Hierarchy>& nodes,
+                       const std::shared_ptr<const std::vector<Clip>>& clips, const Animation& plays)
+    : GraphStack(nodes, clips, *other.descriptions_, plays, other.changes_) {
+  for (const Put& each : other.puts_) put(each.graph, each.input);
 }
 
 GraphStack::GraphStack(const GraphStack& other, std::vector<double> changes, GraphGround plays, double from)
@@ -116,8 +135,7 @@ GraphStack::GraphStack(const GraphStack& other, std::vector<double> changes, Gra
       puts_(other.puts_) {
   const Lent lent(other);
   auto runner = std::make_unique<Runner>(plays_, nodes_, graphs_.size());
-  for (std::size_t i = 0; i < graphs_.size(); ++i)
-    runner->players.emplace_back(lent->players[i], runner->over(i), from);
+  for (std::size_t i = 0; i < graphs_.size(); ++i) runner->lay(i, lent->players[i], from);
   idle_[0] = runner.release();
 }
 
@@ -151,10 +169,6 @@ std::unique_ptr<GraphStack::Runner> GraphStack::new_runner() const {
 void GraphStack::put(std::size_t graph, const GraphInput& input) {
   Lent(*this)->put(graph, input);
   puts_.push_back({graph, input});
-}
-
-void GraphStack::put_all_of(const GraphStack& others) {
-  for (const Put& each : others.puts_) put(each.graph, each.input);
 }
 
 GraphPlayer GraphStack::player(const std::shared_ptr<const GraphStack>& stack, std::size_t graph, double time) {

@@ -30,10 +30,14 @@ struct GroundJumps {
 
 class GraphStack {
  public:
-  /// @param plays  what lies below all of them, without graphs
+  /// @param plays    what lies below all of them, without graphs
+  /// @param changes  when these were changed, s, in order
   /// @throws std::invalid_argument listing all faults of the first that has any
   GraphStack(const std::shared_ptr<const Hierarchy>& nodes, const std::shared_ptr<const std::vector<Clip>>& clips,
-             std::vector<GraphDescription> descriptions, const Animation& plays);
+             std::vector<GraphDescription> descriptions, const Animation& plays, std::vector<double> changes = {});
+  /// Graphs with the same past, over the same plays of other nodes.
+  GraphStack(const GraphStack& other, const std::shared_ptr<const Hierarchy>& nodes,
+             const std::shared_ptr<const std::vector<Clip>>& clips, const Animation& plays);
   /// Graphs with the same past, over plays (without graphs) that may differ from the time `from` on.
   GraphStack(const GraphStack& other, const Animation& plays, double from);
   /// The same graphs over the same plays.
@@ -48,8 +52,6 @@ class GraphStack {
   // Input. Only before the stack is shared.
   /// @throws std::invalid_argument as `GraphPlayer` does
   void put(std::size_t graph, const GraphInput& input);
-  /// Adds the inputs of other graphs to those of the same names.
-  void put_all_of(const GraphStack& others);
 
   /// A player for one graph at a time; it keeps `stack` alive.
   [[nodiscard]] static GraphPlayer player(const std::shared_ptr<const GraphStack>& stack, std::size_t graph,

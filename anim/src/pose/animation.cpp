@@ -190,8 +190,8 @@ Animation Animation::with_nodes(std::shared_ptr<const Hierarchy> nodes) const {
   other.bind_clips({});
   other.bind_plays();
   if (!graphs_) return other;
-  other = other.with_graphs({graphs().begin(), graphs().end()});
-  other.graphs_->put_all_of(*graphs_);
+  other.graphs_ = std::make_shared<graphs::GraphStack>(*graphs_, other.nodes_, other.clips_, other);
+  other.bind_plays();
   return other;
 }
 

@@ -59,7 +59,8 @@ std::unique_ptr<Operation> bound(const JigglePose& described, Binder& binder) {
   binder.attempt({"jiggle"}, [&] { chain.emplace(binder.nodes(), settings); });
   if (!chain || !changed.whole) return nullptr;
   for (const std::size_t node : chain->joints()) binder.moves(node);
-  auto operation = std::make_unique<SwingingChain>(std::move(changed), binder.new_swing(), *std::move(chain));
+  auto operation = std::make_unique<SwingingChain>(
+      std::move(changed), binder.new_swing(1 / described.spring.steps_per_second), *std::move(chain));
   operation->set_rooms(SwingingChain::own_rooms);
   return operation;
 }

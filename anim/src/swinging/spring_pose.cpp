@@ -4,6 +4,8 @@
 #include "operations/account.h"
 #include "swinging/swing.h"
 
+#include <algorithm>
+
 namespace tweenfall::graphs {
 
 namespace {
@@ -59,7 +61,10 @@ std::unique_ptr<Operation> bound(const SpringPose& described, Binder& binder) {
   });
   if (!spring || !changed.whole) return nullptr;
   binder.moves(node);
-  auto operation = std::make_unique<SpringyNode>(std::move(changed), binder.new_swing(), *std::move(spring));
+  double step = 0;
+  for (const std::optional<SpringSettings>& each : {described.position, described.rotation})
+    if (each) step = std::max(step, 1 / each->steps_per_second);
+  auto operation = std::make_unique<SpringyNode>(std::move(changed), binder.new_swing(step), *std::move(spring));
   operation->set_rooms(SpringyNode::own_rooms);
   return operation;
 }

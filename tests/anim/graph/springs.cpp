@@ -323,6 +323,49 @@ TEST_CASE("a spring over a graph whose parameter jumps, or a play that is sought
     }
 }
 
+TEST_CASE("springs go on the same way after a change of the plays, whether they were looked at before or not") {
+  GraphDescription first = lively(), second = lively();
+  first.name = "first";
+  second.name = "second";
+  const Animation start =
+      Animation(figures(), *figure_clips(), {{.clip = 0}, {.clip = 1}}).with_graphs({first, second});
+  std::vector<Motion> pose(figures()->size()), other(figures()->size());
+  Random random(26);
+  for (int i = 0; i < 40; ++i) {
+    CAPTURE(i);
+    // Springs take steps of 1/120 s.
+    const double input = random.between(0.3, 0.5), change = input + random.between(0, 0.02);
+    const char* const told = random.bits() % 2 ? "first" : "second";
+    const PlayChange sought{
+        .time = change, .play = "idle", .action = playing::Seek{.time = 1.3, .fade = random.between(0, 0.1)}};
+    const Animation before = start.with_input(told, {input, "jump", random.unit()});
+    for (int look = 0; look < 6; ++look) before.sample(random.between(0.25, change + 0.02), pose);
+    const Animation seen = before.with_change(sought),
+                    unseen = start.with_input(told, before.graph(told, input).inputs().back()).with_change(sought);
+    for (const double time : {change, change + 0.01, 1.0}) {
+      seen.sample(time, pose);
+      unseen.sample(time, other);
+      CHECK(same_bits(pose, other));
+    }
+  }
+}
+
+TEST_CASE("springs know when plays were changed although nodes were added since") {
+  const Animation start = Animation(figures(), *figure_clips(), {{.clip = 0}}).with_graphs({lively()});
+  const Animation changed =
+      start.with_change({.time = 0.41, .play = "walk", .action = playing::SetSpeed{.speed = {{0, 0.1}}}});
+  Hierarchy more = *figures();
+  more.add({"hat", 8, {}});
+  const Animation grown = changed.with_nodes(std::make_shared<const Hierarchy>(more));
+  std::vector<Motion> pose(figures()->size()), other(more.size());
+  for (const double time : {0.405, 0.409, 0.42, 0.6, 2.0}) {
+    CAPTURE(time);
+    changed.sample(time, pose);
+    grown.sample(time, other);
+    CHECK(same_bits(pose, std::span(other).first(pose.size())));
+  }
+}
+
 TEST_CASE("a graph with springs is saved and loaded with their state, and goes on to the same bits") {
   const auto graph = figure_graph(lively());
   GraphPlayer player(graph), other(graph);
