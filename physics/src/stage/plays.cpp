@@ -68,7 +68,8 @@ void change_animation(StageState& state, const Animation& animation, double inst
   state.jumps = jumps_of_plays(state);
   state.jumped = true;
   tell(std::move(news), happenings);
-  fire_rules(state, std::nextafter(instant, -infinity), step, happenings);
+  // Before the stage has begun, as when one is loaded, only the cast changes.
+  if (state.steps >= 0) fire_rules(state, std::nextafter(instant, -infinity), step, happenings);
 }
 
 }  // namespace

@@ -135,6 +135,21 @@ TEST_CASE("a stage that was saved between inputs to its graphs goes on to the sa
   }
 }
 
+TEST_CASE("a stage is loaded although a rule waits for an event, and a graph or a play was told something") {
+  StageDescription stage = led();
+  stage.rules = {{.bodies = {"other"}, .when = {{when::Event{"top"}}}, .to = {.hz = 5}}};
+  Stage first(stage), second(stage);
+  first.advance(0.21);
+  first.set("figure", "armed", 1);
+  first.ask("beat", playing::SetSpeed{.speed = {{0, 2}}});
+  first.send("figure", "jump");
+  first.advance(0.1);
+  second.load(first.save());
+  for (Stage* each : {&first, &second}) each->advance(0.5);
+  CHECK(second.state_hash() == first.state_hash());
+  CHECK(first.drive(first.node("other")).hz == 5);
+}
+
 TEST_CASE("an event with which what was sent begins is told once, and rules wait for it") {
   StageDescription described = led();
   described.rules = {{.bodies = {"ball"}, .when = {.triggers = {when::Event{"off"}}}, .to = Drive::free()}};
