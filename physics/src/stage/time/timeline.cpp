@@ -86,32 +86,71 @@ void Timeline::run_to(double target, bool aloud) {
   now_ = std::max(now_, target);
 }
 
+namespace {
+
+/// Whether two tell the same, of which one was found in a longer piece.
+bool is_same(const Happening& a, const Happening& b) {
+  if (a.what.index() != b.what.index()) return false;
+  if (const auto* event = std::get_if<StageEvent>(&a.what)) {
+    const auto& other = std::get<StageEvent>(b.what);
+    return event->time == other.time && event->name == other.name && event->nodes == other.nodes;
+  }
+  const auto &handoff = std::get<HandOff>(a.what), &other = std::get<HandOff>(b.what);
+  return handoff.time == other.time && handoff.node == other.node && handoff.to == other.to &&
+         handoff.cause == other.cause;
+}
+
+}  // namespace
+
 /// Makes `to_` the state on which a change at `now` acts, and forgets its future.
-void Timeline::reach_now() {
+/// @return what the piece has told that still comes if it ends now; empty if that is all of it
+std::optional<std::vector<Happening>> Timeline::reach_now() {
   const double end = static_cast<double>(to_.steps) * description.step;
-  if (now_ >= to_.time || (to_.time == end && now_ >= end - sliver)) return;
+  if (now_ >= to_.time || (to_.time == end && now_ >= end - sliver)) return {};
   const std::size_t kept = std::max(told_, of_piece_);
   if (now_ <= from_.handled) {
     happenings_.resize(kept);
     std::swap(from_, to_);
-    return;
+    return {};
   }
   StageState piece = from_;
   std::vector<Happening> again;
   const std::vector<Command> stop{{now_, change::None{}}};
   std::optional<StageState> unchanged;
   while (piece.time < now_) take(piece, stop, again, unchanged);
-  // What the piece has told stays told and is not told again.
-  std::vector<StageEvent> told;
-  for (std::size_t i = of_piece_; i < told_; ++i)
-    if (const auto* event = std::get_if<StageEvent>(&happenings_[i].what)) told.push_back(*event);
-  take_out_twins(again, std::span<const StageEvent>(told), [](const Happening& other, const StageEvent& one) {
-    const auto* event = std::get_if<StageEvent>(&other.what);
-    return event && event->time == one.time && event->name == one.name && event->nodes == one.nodes;
-  });
+  // What the piece has told stays told, and is not told again, unless it does not come now.
+  std::vector<Happening> told;
+  if (told_ > of_piece_)
+    told.assign(happenings_.begin() + static_cast<std::ptrdiff_t>(of_piece_),
+                happenings_.begin() + static_cast<std::ptrdiff_t>(told_));
+  std::vector<Happening> lost = told;
+  take_out_twins(lost, std::span<const Happening>(again), is_same);
+  take_out_twins(again, std::span<const Happening>(told), is_same);
+  take_out_twins(told, std::span<const Happening>(lost), is_same);
   happenings_.resize(kept);
   happenings_.insert(happenings_.end(), std::make_move_iterator(again.begin()), std::make_move_iterator(again.end()));
   to_ = std::move(piece);
+  return lost.empty() ? std::nullopt : std::optional(std::move(told));
+}
+
+/// Of what the piece has told, leaves what still comes: a contact that frees a body from the beginning of the piece on,
+/// for example, may come no more.
+void Timeline::leave_told(std::vector<Happening> still_told) {
+  const auto first = happenings_.begin() + static_cast<std::ptrdiff_t>(of_piece_),
+             last = happenings_.begin() + static_cast<std::ptrdiff_t>(told_);
+  const auto handed = static_cast<std::size_t>(
+      std::count_if(first, last, [](const Happening& each) { return std::holds_alternative<HandOff>(each.what); }));
+  handoffs.resize(handoffs.size() - handed);
+  events.resize(events.size() - (told_ - of_piece_ - handed));
+  for (const Happening& each : still_told) {
+    if (const auto* handoff = std::get_if<HandOff>(&each.what))
+      handoffs.push_back(*handoff);
+    else
+      events.push_back(std::get<StageEvent>(each.what));
+  }
+  told_ = of_piece_ + still_told.size();
+  happenings_.insert(happenings_.erase(first, last), std::make_move_iterator(still_told.begin()),
+                     std::make_move_iterator(still_told.end()));
 }
 
 void Timeline::command(Change change) {
@@ -122,7 +161,7 @@ void Timeline::command(Change change) {
   const bool ahead = now_ < to_.time;
   const std::shared_ptr<const StageState> aside = ahead ? std::make_shared<const StageState>(to_) : nullptr;
   const double began = from_.time;
-  reach_now();
+  std::optional<std::vector<Happening>> still_told = reach_now();
   Command command{now_, std::move(change), to_.at_once};
   std::vector<Happening> caused;
   try {
@@ -136,6 +175,7 @@ void Timeline::command(Change change) {
     happenings_.insert(happenings_.end(), coming.begin(), coming.end());
     throw;
   }
+  if (still_told) leave_told(*std::move(still_told));
   // A change made in the past begins another future.
   const auto is_to_come = [this](const Command& other) {
     return other.time > to_.handled || (other.time > to_.since && other.at_once > to_.at_once);

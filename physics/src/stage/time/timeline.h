@@ -53,7 +53,8 @@ class Timeline {
   void tell(bool aloud, double until);
   void keep_told();
   void put_in(std::vector<Happening> caused);
-  void reach_now();
+  std::optional<std::vector<Happening>> reach_now();
+  void leave_told(std::vector<Happening> still_told);
 
   StageState initial_;
   StageState from_, to_;
