@@ -61,7 +61,8 @@ void read_particles(Caller& caller) {
 }
 
 void read_energy(Caller& caller) {
-  (void)caller.stage.energy();
+  (void)caller.stage.energy().total();
+  (void)caller.stage.complementarity();
 }
 
 /// Looks into a graph, and plays it by itself.
