@@ -124,8 +124,12 @@ struct World::Implementation : state::WorldState, step::Workspace {
   /// @param found_at  as above
   void separate(std::span<contacts::ContactConstraint* const> overlapping, std::span<const step::Start> found_at);
   [[nodiscard]] bool goes_by_impacts() const;
-  /// Steps the whole world from impact to impact.
+  /// Steps the whole world from impact to impact, but for islands that are solved as usual.
   void solve_by_impacts(double dt);
+  /// Moves those through the step, before all others.
+  /// @param usual  written: by body, whether it has been moved
+  /// @return their contacts, which are active no more
+  std::vector<contacts::ContactConstraint> solve_as_usual(double dt, std::vector<char>& usual);
   void lead_on(double h, double left);  ///< moves bodies with a target through a part of what is left of the step
   void step_in_plane(double dt);        ///< all of a step of a planar world
   void push_in_plane(double dt);        ///< forces

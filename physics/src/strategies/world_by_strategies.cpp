@@ -2,6 +2,7 @@
 #include <tweenfall/physics/strategies.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -9,6 +10,7 @@
 
 #include "collision/surfaces/surface.h"
 #include "contacts/meeting.h"
+#include "forces/drive_law.h"
 #include "state/world_data.h"
 #include "step/keyed_step.h"
 #include "strategies/arrived.h"
@@ -111,10 +113,12 @@ class Sums {
     }
   }
   /// Reports them as if they had come from one step; contacts that have ended are added.
-  /// @param gone  keeps the ended ones until the step has been reported
-  void finish(std::vector<ContactConstraint*>& active, std::vector<ContactConstraint>& gone, double dt) {
+  /// @param gone  keeps the ended ones, and `others`, until the step has been reported
+  /// @param others  contacts that were solved as usual
+  void finish(std::vector<ContactConstraint*>& active, std::vector<ContactConstraint>& gone,
+              std::span<const ContactConstraint> others, double dt) {
     gone.clear();
-    gone.reserve(sums_.size());
+    gone.reserve(sums_.size() + others.size());
     const auto is_before = [](const ContactConstraint* a, const ContactConstraint* b) { return key(*a) < key(*b); };
     const auto present = static_cast<std::ptrdiff_t>(active.size());
     for (auto& [pair, sum] : sums_) {
@@ -122,7 +126,6 @@ class Sums {
       gone.push_back(sum.contact);
       active.push_back(&gone.back());
     }
-    std::sort(active.begin(), active.end(), is_before);
     for (ContactConstraint* contact : active) {
       // Its manifold is not from the start of the step.
       contact->kept = false;
@@ -135,6 +138,11 @@ class Sums {
       first.total_friction = sum.total - sum.normal * contact->manifold.normal;
       first.approach = sum.approach;
     }
+    for (const ContactConstraint& other : others) {
+      gone.push_back(other);
+      active.push_back(&gone.back());
+    }
+    std::sort(active.begin(), active.end(), is_before);
   }
 
  private:
@@ -306,27 +314,68 @@ void World::Implementation::separate(std::span<contacts::ContactConstraint* cons
 }
 
 bool World::Implementation::goes_by_impacts() const {
-  if (!links.empty() || !stiff_springs.empty()) return false;
-  if (settings.collision != Detection::time_of_impact &&
-      (other_detections == 0 || std::none_of(active.begin(), active.end(), [this](const auto* contact) {
-         return detection_of(*contact) == Detection::time_of_impact;
-       })))
-    return false;
-  return std::none_of(watched.begin(), watched.end(),
-                      [&](std::uint32_t index) { return bodies[index].drive.owner() == Owner::driven; });
+  if (settings.collision == Detection::time_of_impact) return true;
+  return other_detections > 0 && std::any_of(active.begin(), active.end(), [this](const auto* contact) {
+           return detection_of(*contact) == Detection::time_of_impact;
+         });
+}
+
+std::vector<contacts::ContactConstraint> World::Implementation::solve_as_usual(double dt, std::vector<char>& usual) {
+  usual.assign(bodies.size(), 0);
+  std::vector<char> marks(bodies.size(), 0);  // by island
+  bool any = false;
+  const auto mark = [&](std::uint32_t a, std::uint32_t b) {
+    for (const std::uint32_t index : {a, b}) {
+      if (index == joints::JointLink::world || bodies[index].immovable()) continue;
+      marks[islands.of(index)] = 1;
+      any = true;
+    }
+  };
+  for (const islands::IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs, links)) {
+    if (goes_by_strategies(island)) continue;
+    for (const contacts::ContactConstraint* contact : island.contacts) mark(contact->a, contact->b);
+    for (const step::SpringRow* spring : island.springs) mark(spring->a, spring->b);
+    for (const joints::JointLink* link : island.joints) mark(link->a, link->b);
+  }
+  for (const std::uint32_t index : watched)
+    if (bodies[index].drive.owner() == Owner::driven) mark(index, index);
+  if (!any) return {};
+  const auto is_usual = [&](const contacts::ContactConstraint* contact) {
+    return marks[islands.of(bodies[contact->a].immovable() ? contact->b : contact->a)] != 0;
+  };
+  std::vector<contacts::ContactConstraint*> others;
+  std::copy_if(active.begin(), active.end(), std::back_inserter(others), std::not_fn(is_usual));
+  std::erase_if(active, std::not_fn(is_usual));
+  solve_islands(dt);
+  for (const std::uint32_t index : watched) {
+    state::Body& body = bodies[index];
+    if (body.immovable() || marks[islands.of(index)] == 0) continue;
+    usual[index] = 1;
+    if (body.asleep || moved[index] != 0) continue;
+    if (body.drive.owner() == Owner::driven)
+      forces::pull(body, loads[index], dt);
+    else
+      fly_alone(index, dt, dt);
+  }
+  std::vector<contacts::ContactConstraint> solved;
+  for (const contacts::ContactConstraint* contact : active) solved.push_back(*contact);
+  active = others;
+  return solved;
 }
 
 void World::Implementation::solve_by_impacts(double dt) {
   solvers.resize(std::max<std::size_t>(1, solvers.size()));
   strategies::IslandByStrategies& by = solvers[0].strategies;
   strategies::Sums sums;
+  std::vector<char> usual;
+  const std::vector<contacts::ContactConstraint> solved = solve_as_usual(dt, usual);
   complementarity = 0;
   const double soon = strategies::meets_now * dt;
   double left = dt;
   int at_once = 0;
   std::vector<step::Start> found_at = starts;
   const auto go = [&](double h, bool blows) {
-    moved.assign(bodies.size(), 0);
+    moved = usual;
     for (contacts::ContactConstraint* contact : active) strategies::forget_totals(*contact);
     complementarity =
         std::max(complementarity, by.respond(bodies, loads, foreseen(active), settings,
@@ -357,13 +406,15 @@ void World::Implementation::solve_by_impacts(double dt) {
                            flight);
       find_constraints(left);
     } while (wake_islands());
+    // What has been through the whole step is met in the next.
+    std::erase_if(active, [&](const auto* contact) { return usual[contact->a] != 0 || usual[contact->b] != 0; });
     for (const std::uint32_t index : watched) {
       found_at[index].center = bodies[index].center;
       found_at[index].rotation = bodies[index].motion.pose.rotation;
     }
   }
   sums.add(active);
-  sums.finish(active, struck, dt);
+  sums.finish(active, struck, solved, dt);
   for (const std::uint32_t index : watched) moved[index] = bodies[index].immovable() || bodies[index].asleep ? 0 : 1;
 }
 
