@@ -358,6 +358,7 @@ std::vector<contacts::ContactConstraint> World::Implementation::solve_as_usual(d
       fly_alone(index, dt, dt);
   }
   std::vector<contacts::ContactConstraint> solved;
+  solved.reserve(active.size());
   for (const contacts::ContactConstraint* contact : active) solved.push_back(*contact);
   active = others;
   return solved;
