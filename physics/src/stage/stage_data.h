@@ -201,6 +201,7 @@ struct StageState {
   int splits = 0;           ///< of the current step, by rules and jumps
   World world;
   Vec3 gravity{0, 0, 0};
+  WorldPlane plane{};
   std::shared_ptr<const Hierarchy> nodes;
   std::shared_ptr<const Animation> animation;
   std::shared_ptr<const Jumps> jumps;

@@ -334,3 +334,18 @@ TEST_CASE("a hand-off told of a step's beginning is taken back if a change keeps
   CHECK(stage.handoffs().empty());
   CHECK(stage.state_hash() == hash);
 }
+
+TEST_CASE("in a plane a body is not let go with a velocity out of it, and stays as it was") {
+  StageDescription flat{.nodes = {{.name = "ball", .body = BodyDescription{.shape = {Sphere{0.2}}, .mass = 1.0}}},
+                        .world = {.plane = WorldPlane::xy}};
+  flat.nodes[0].body->drive = Drive::keyed();
+  const TakeOver out{.add = {.linear = {0, 0, 1}}};
+  Rule rule = on_contact("ball", {.impulse = 1});
+  rule.take_over = out;
+  Stage stage(flat);
+  stage.advance_to(0.1);
+  CHECK_THROWS_AS(stage.release(0, out), std::invalid_argument);
+  CHECK_THROWS_AS(stage.arm(rule), std::invalid_argument);
+  CHECK(stage.owner(0) == Owner::keyed);
+  CHECK(stage.handoffs().empty());
+}

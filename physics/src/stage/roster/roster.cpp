@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "flat/flat.h"
 #include "stage/actors/particles.h"
 #include "stage/actors/vehicles.h"
 #include "stage/roster/scaled_shape.h"
@@ -131,6 +132,11 @@ void validate(const OwnerChange& change) {
   if (!(change.take_over.rewind_within >= 0)) throw std::invalid_argument("a rewind needs a time of 0 s or more");
   if (!(change.ramp >= 0) || !std::isfinite(change.ramp))
     throw std::invalid_argument("a ramp takes a time of 0 s or more");
+}
+
+/// What is added to a velocity must not lead out of the world's plane.
+void require_in_plane(const StageState& state, const OwnerChange& change) {
+  flat::require_motion(state.plane, {.twist = change.take_over.add});
 }
 
 void require_clip(const StageState& state, const HandBack& hand_back) {
@@ -267,6 +273,7 @@ StageState described_state(const StageDescription& description, std::vector<Stag
   StageState state;
   attempt(faults, Part::world, 0, "", [&] { state.world = World(description.world); });
   state.gravity = description.world.gravity;
+  state.plane = description.world.plane;
   const bool bound = attempt(faults, Part::clips, 0, "", [&] {
     state.nodes = std::make_shared<const Hierarchy>(nodes_of(description, faults));
     state.animation = std::make_shared<const Animation>(
@@ -333,9 +340,11 @@ StageState initial_state(const StageDescription& description) {
 
 void arm_rule(StageState& state, const Rule& rule) {
   validate(rule);
+  require_in_plane(state, rule.change());
   require_clip(state, rule.hand_back);
   bool keyed_always = stays_keyed(rule.change());
   for (const NextChange& next : rule.then) {
+    require_in_plane(state, next.change);
     require_clip(state, next.change.hand_back);
     keyed_always = keyed_always && stays_keyed(next.change);
   }
@@ -378,6 +387,7 @@ void arm_rule(StageState& state, const Rule& rule) {
 
 void require_possible(const StageState& state, const StagedBody& body, const OwnerChange& change) {
   validate(change);
+  require_in_plane(state, change);
   require_clip(state, change.hand_back);
   if (!stays_keyed(change)) require_mass(state, body);
 }

@@ -111,7 +111,8 @@ std::optional<std::vector<Happening>> Timeline::reach_now() {
   if (now_ <= from_.handled) {
     happenings_.resize(kept);
     std::swap(from_, to_);
-    return {};
+    // The whole piece comes again, and tells what is then to tell.
+    return told_ > of_piece_ ? std::optional(std::vector<Happening>()) : std::nullopt;
   }
   StageState piece = from_;
   std::vector<Happening> again;
