@@ -27,6 +27,9 @@ namespace {
 
 /// Newton's steps; more where each is exact: what is stiff turns along a valley as narrow as it is stiff.
 constexpr int most_newton_steps = 12, most_exact_steps = 60;
+/// Passes of the conjugate gradients, as many up to `many_nodes`, and in each of Newton's steps fewer where there are
+/// more: a cloth of very many cells that are far longer than wide would take seconds for a step.
+constexpr double most_passes = 1000, fewest_passes = 100, many_nodes = 2000;
 constexpr int most_halvings = 12, most_ventured = 2;
 /// How many times as stiff as heavy in a sub-step what is no chain is when its matrix is worth being factored, over the
 /// square of how far it reaches.
@@ -312,7 +315,9 @@ class Springs {
     toward_ = steered_;
     double left = dot(rest_, steered_);
     const double enough = 1e-16 * left;
-    const int most = static_cast<int>(std::min<std::size_t>(3 * size + 20, 1000));
+    const auto all = static_cast<double>(size);
+    const double of_many = most_passes * many_nodes * many_nodes / (all * all);
+    const double most = std::min({3 * all + 20, most_passes, std::max(fewest_passes, of_many)});
     for (int i = 0; i < most && left > enough; ++i) {
       multiply(toward_, product_);
       const double curve = dot(toward_, product_);
