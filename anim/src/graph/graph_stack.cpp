@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "graph/binder.h"
+
 namespace tweenfall::graphs {
 
 struct GraphStack::Runner {
