@@ -225,13 +225,20 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
         collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed, near, deep);
     if (wider.count > contact.count) meet_at_start(contact, wider);
   }
-  const auto known = static_cast<std::ptrdiff_t>(active.size());
+  auto known = static_cast<std::ptrdiff_t>(active.size());
   for (contacts::ContactConstraint& contact : followers.all()) active.push_back(&contact);
   const auto before = [](const contacts::ContactConstraint* left, const contacts::ContactConstraint* right) {
     return pairs::Pair(left->a, left->b) < pairs::Pair(right->a, right->b);
   };
   std::sort(active.begin() + known, active.end(), before);
-  std::inplace_merge(active.begin(), active.begin() + known, active.end(), before);
+  // They are few: the last ones get their places first, without a look at most of the others.
+  std::vector<contacts::ContactConstraint*> late(active.begin() + known, active.end());
+  for (auto end = active.end(); !late.empty(); late.pop_back()) {
+    const auto place = std::upper_bound(active.begin(), active.begin() + known, late.back(), before);
+    end = std::move_backward(place, active.begin() + known, end);
+    *--end = late.back();
+    known = place - active.begin();
+  }
 }
 
 }  // namespace tweenfall

@@ -16,19 +16,23 @@ void IslandSorter::sort_by_island(std::size_t bodies, std::vector<Entry>& entrie
   std::swap(entries, sorted_);
 }
 
-const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::Body>& bodies, Islands& islands,
+const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::Body>& bodies, const Islands& islands,
                                                       std::span<contacts::ContactConstraint* const> contacts,
                                                       std::vector<step::SpringRow>& springs,
-                                                      std::vector<joints::JointLink>& links) {
+                                                      std::vector<joints::JointLink>& links,
+                                                      const threads::Workers& workers) {
+  constexpr std::size_t worth_a_part = 256;
   static_assert(step::SpringRow::world == joints::JointLink::world);
   const auto island_of = [&](std::uint32_t a, std::uint32_t b) {
     const bool by_a = a != step::SpringRow::world && (b == step::SpringRow::world || !bodies[a].immovable());
-    return islands.of(by_a ? a : b);
+    return islands.root(by_a ? a : b);
   };
   const auto sorted = [&](const auto& list, std::vector<Entry>& entries, auto& pointers, const auto& island_of_item) {
-    entries.clear();
-    for (const auto* item : list)
-      entries.push_back({island_of_item(item->a, item->b), static_cast<std::uint32_t>(entries.size())});
+    entries.resize(list.size());
+    workers.ranges(list.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        entries[i] = {island_of_item(list[i]->a, list[i]->b), static_cast<std::uint32_t>(i)};
+    });
     sort_by_island(bodies.size(), entries);
     pointers.clear();
     for (const Entry& entry : entries) pointers.push_back(list[entry.number]);

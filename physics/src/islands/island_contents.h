@@ -8,6 +8,7 @@
 #include "joints/joint_link.h"
 #include "state/body.h"
 #include "step/spring_row.h"
+#include "threads/workers.h"
 
 namespace tweenfall::islands {
 
@@ -23,9 +24,10 @@ struct IslandContents {
 class IslandSorter {
  public:
   /// In order of the smallest index of a movable body; the result refers to the arguments and to this.
-  const std::vector<IslandContents>& sort(const std::vector<state::Body>& bodies, Islands& islands,
+  const std::vector<IslandContents>& sort(const std::vector<state::Body>& bodies, const Islands& islands,
                                           std::span<contacts::ContactConstraint* const> contacts,
-                                          std::vector<step::SpringRow>& springs, std::vector<joints::JointLink>& links);
+                                          std::vector<step::SpringRow>& springs, std::vector<joints::JointLink>& links,
+                                          const threads::Workers& workers);
 
  private:
   struct Entry {

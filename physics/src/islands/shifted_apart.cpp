@@ -37,14 +37,13 @@ bool stays(const Body& body) {
 
 }  // namespace
 
-void ShiftedApart::mark(std::span<ContactConstraint* const> contacts, const std::vector<Body>& bodies) {
-  const auto is_carried = [&](const ContactConstraint* contact) {
-    return stays(bodies[contact->a]) || stays(bodies[contact->b]);
-  };
-  if (std::none_of(contacts.begin(), contacts.end(), is_carried)) return;
+void ShiftedApart::mark(std::span<ContactConstraint* const> contacts, const threads::Workers& workers) {
+  constexpr std::size_t worth_a_part = 256;
   // Where one corner lies deeper than the others, impulses still turn it out.
-  for (ContactConstraint* contact : contacts)
-    if (contact->within) contact->eased = std::max(0.0, -widest_gap(*contact));
+  workers.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (ContactConstraint* contact : contacts.subspan(begin, end - begin))
+      if (contact->within) contact->eased = std::max(0.0, -widest_gap(*contact));
+  });
 }
 
 void ShiftedApart::find_levels(const std::vector<Body>& bodies) {

@@ -6,6 +6,7 @@
 
 #include "contacts/contact_constraint.h"
 #include "state/body.h"
+#include "threads/workers.h"
 
 namespace tweenfall::islands {
 
@@ -16,8 +17,8 @@ namespace tweenfall::islands {
 /// each other apart as ever: a shift would change their angular momentum.
 class ShiftedApart {
  public:
-  /// Marks the contacts of an island whose overlap `shift` will remove: none if nothing carries its bodies.
-  static void mark(std::span<contacts::ContactConstraint* const> contacts, const std::vector<state::Body>& bodies);
+  /// Marks the contacts of an island whose overlap `shift` will remove. Only where something carries its bodies.
+  static void mark(std::span<contacts::ContactConstraint* const> contacts, const threads::Workers& workers);
   /// Shifts the bodies of an island in which contacts are marked, none by more than `most` meters. Where the contacts
   /// contradict each other, as between walls, nothing is shifted, and from then on they push.
   void shift(std::span<contacts::ContactConstraint* const> contacts, std::vector<state::Body>& bodies, double most);

@@ -51,22 +51,37 @@ bool World::Implementation::wake_islands() {
   islands.reset(bodies.size());
   flags.assign(bodies.size(), 0);
   carried.assign(bodies.size(), 0);
-  const auto each_link = [&](const auto& visit) {
-    for (const contacts::ContactConstraint* constraint : active) visit(constraint->a, constraint->b);
+  const auto each_link_beside_contacts = [&](const auto& visit) {
     for (const std::uint32_t place : retained) visit(memories[place].a, memories[place].b);
     for (const forces::NumberedForce& entry : forces) forces::each_tie(entry, bodies, watched, visit);
     for (const joints::JointLink& link : links)
       if (link.a != joints::JointLink::world) visit(link.a, link.b);
   };
-  bool disturbed = false;
-  each_link([&](std::uint32_t a, std::uint32_t b) {
-    bool all_move = true;
+  const auto each_link = [&](const auto& visit) {
+    for (const contacts::ContactConstraint* constraint : active) visit(constraint->a, constraint->b);
+    each_link_beside_contacts(visit);
+  };
+  std::atomic<bool> disturbed = false;
+  const auto both_move = [&](std::uint32_t a, std::uint32_t b) {
+    bool result = true;
     for (const state::Body* body : {&bodies[a], &bodies[b]}) {
       const bool immovable = body->immovable();
-      all_move = all_move && !immovable;
-      disturbed = disturbed || body->conveys || (immovable && body->stirs());
+      result = result && !immovable;
+      if (body->conveys || (immovable && body->stirs())) disturbed.store(true, std::memory_order_relaxed);
     }
-    if (all_move) islands.join(a, b);
+    return result;
+  };
+  active_ends.resize(active.size());
+  workers().ranges(active.size(), step::worth_sharing_sleep, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t a = active[k]->a, b = active[k]->b;
+      active_ends[k] = {a, both_move(a, b) ? b : a};
+    }
+  });
+  for (const step::ContactEnds& ends : active_ends)
+    if (ends.a != ends.b) islands.join(ends.a, ends.b);
+  each_link_beside_contacts([&](std::uint32_t a, std::uint32_t b) {
+    if (both_move(a, b)) islands.join(a, b);
   });
   if (!sleepers.empty())
     for (const std::uint32_t i : watched)

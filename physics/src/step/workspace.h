@@ -56,6 +56,8 @@ struct Batch {
 struct Solvers {
   Solver few;
   blocks::BlockSolver many;
+  blocks::BlockSolver
+      alone;  ///< for islands solved by themselves: after those of others its room would be cleared anew
   std::vector<Batch> batches;  ///< for `many`, by effort
   strategies::IslandByStrategies strategies;
   double complementarity = 0;  ///< of the islands of this step, m/s
@@ -63,6 +65,11 @@ struct Solvers {
   Batch& put_by(const islands::IslandContents& island, const blocks::BlockSolver::Effort& effort);
   void solve(Batch& batch, std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
              const WorldSettings& settings, double dt, std::vector<char>& moved);
+};
+
+/// The bodies that a contact ties together; of two that do not both move by themselves, the same one twice.
+struct ContactEnds {
+  std::uint32_t a, b;
 };
 
 /// Room for a step to work in, and what makes the next one fast. Whether it is left from earlier steps or starts
@@ -90,6 +97,7 @@ struct Workspace {
   std::vector<contacts::Link> touching_links;        ///< of `active`
   std::vector<char> cornered;                        ///< by link: more of its corners may come down
   std::vector<contacts::ContactConstraint*> active;  ///< in `found` and `followers`: contacts near something that moves
+  std::vector<ContactEnds> active_ends;              ///< of `active`
   std::vector<std::uint32_t> retained;               ///< memories of contacts between bodies at rest, by pair
   std::vector<std::vector<std::uint32_t>> retained_parts;  ///< of the pairs, in order
   std::vector<std::uint32_t> remembered;

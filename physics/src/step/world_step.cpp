@@ -180,15 +180,17 @@ void World::Implementation::solve_islands(double dt) {
   moved.assign(bodies.size(), 0);
   complementarity = 0;
   leave_sleeping_links();
-  const std::vector<islands::IslandContents>& all = island_sorter.sort(bodies, islands, active, stiff_springs, links);
-  if (all.empty()) return;
   const threads::Workers work = workers();
+  const std::vector<islands::IslandContents>& all =
+      island_sorter.sort(bodies, islands, active, stiff_springs, links, work);
+  if (all.empty()) return;
   const std::size_t shares =
       active.size() + 4 * links.size() < step::worth_sharing ? 1 : std::min(work.threads(), all.size());
   if (solvers.size() < shares) solvers.resize(shares);
   for (std::size_t i = 0; i < shares; ++i) {
     solvers[i].few.begin(bodies.size(), part_count);
     solvers[i].many.begin(bodies.size(), part_count);
+    solvers[i].alone.begin(bodies.size(), part_count);
     solvers[i].complementarity = 0;
   }
   // Largest first, so that no thread ends with a large one; all threads share the very large ones.
@@ -234,7 +236,7 @@ void World::Implementation::solve_islands(double dt) {
       by.few.solve(bodies, loads, contents.contacts, contents.springs, settings, dt, moved);
       tame(contents);
     } else if (effort->alone) {
-      by.many.solve(bodies, loads, std::span(&contents, 1), *effort, settings, dt, moved, within);
+      by.alone.solve(bodies, loads, std::span(&contents, 1), *effort, settings, dt, moved, within);
       if (led) tame(contents);
     } else if (step::Batch& batch = by.put_by(contents, *effort); batch.size >= enough()) {
       by.solve(batch, bodies, loads, settings, dt, moved);
@@ -261,8 +263,10 @@ void World::Implementation::solve_islands(double dt) {
   };
   for (const islands::IslandContents& island : all)
     if (!goes_by_strategies(island)) free_islands.keep(island, bodies, loads, moved, settings.integrator, dt, start_of);
-  for (const islands::IslandContents& island : all)
-    shifted_apart.shift(island.contacts, bodies, settings.push_out_speed * dt);
+  if (std::any_of(solvers.begin(), solvers.begin() + static_cast<std::ptrdiff_t>(shares),
+                  [](const step::Solvers& one) { return one.many.shifts(); }))
+    for (const islands::IslandContents& island : all)
+      shifted_apart.shift(island.contacts, bodies, settings.push_out_speed * dt);
   for (std::size_t i = 0; i < shares; ++i) complementarity = std::max(complementarity, solvers[i].complementarity);
 }
 

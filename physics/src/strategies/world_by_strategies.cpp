@@ -331,7 +331,8 @@ std::vector<contacts::ContactConstraint> World::Implementation::solve_as_usual(d
       any = true;
     }
   };
-  for (const islands::IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs, links)) {
+  for (const islands::IslandContents& island :
+       island_sorter.sort(bodies, islands, active, stiff_springs, links, workers())) {
     if (goes_by_strategies(island)) continue;
     for (const contacts::ContactConstraint* contact : island.contacts) mark(contact->a, contact->b);
     for (const step::SpringRow* spring : island.springs) mark(spring->a, spring->b);

@@ -24,8 +24,15 @@ struct Unknown {
   Vec3 now, best;  ///< the present guess, and the last that came nearer
   Vec3 pull;       ///< acceleration at the present guess
   std::array<Vec3, 3> slopes;
-  double least_off = std::numeric_limits<double>::infinity(), least_change = least_off, before = 0;
-  int halvings = 0;
+  double least_off, least_change, before;
+  int halvings;
+
+  void begin(const Vec3& guess) {
+    now = best = guess;
+    least_off = least_change = std::numeric_limits<double>::infinity();
+    before = 0;
+    halvings = 0;
+  }
 };
 
 struct Memory {
@@ -164,16 +171,14 @@ void meet_the_end(const Pulling& pulling, std::size_t count, double time, double
   for (std::size_t begin = 0; begin < count; begin += group) {
     const std::size_t some = std::min(group, count - begin);
     for (std::size_t i = 0; i < some; ++i) {
-      Unknown one;
+      Unknown& one = memory.unknowns[i];
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto at = static_cast<Eigen::Index>(axis);
         const double speed = speeds[axis][begin + i];
         one.place[at] = places[axis][begin + i] + (1 - share) * dt * speed;
         one.known[at] = share < 1 ? speed + (1 - share) * dt * memory.start[axis][begin + i] : speed;
-        one.now[at] = speed;
       }
-      one.best = one.now;
-      memory.unknowns[i] = one;
+      one.begin({speeds[0][begin + i], speeds[1][begin + i], speeds[2][begin + i]});
     }
     ending.meet(some);
     for (std::size_t i = 0; i < some; ++i)

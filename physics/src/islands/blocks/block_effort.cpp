@@ -175,13 +175,15 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::I
       effort.heap ? sub_steps_of_deep_heap(depth)
                   : sub_steps_of_depth(depth, has_turning(island, bodies, dt) ? fewest_of_turning : fewest_of_few);
   const double h = dt / effort.sub_steps;
-  std::atomic<bool> unfit = false, driven = false;
+  std::atomic<bool> unfit = false, driven = false, within = false, carried = false;
   workers.ranges(island.contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (const ContactConstraint* contact : island.contacts.subspan(begin, end - begin)) {
       bool fits = contact->rolling_friction == 0 && contact->spinning_friction == 0;
+      if (contact->within) within.store(true, std::memory_order_relaxed);
       for (const std::uint32_t index : {contact->a, contact->b}) {
         const Body& body = bodies[index];
         if (drives(body)) driven.store(true, std::memory_order_relaxed);
+        if (body.immovable() || body.asleep) carried.store(true, std::memory_order_relaxed);
         fits = fits && (body.immovable() ||
                         (body.drive.owner() != Owner::driven && !(body.twist.angular.norm() * h > followable)));
       }
@@ -190,7 +192,10 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::I
   });
   if (unfit) return std::nullopt;
   effort.alone = effort.alone || driven;
-  islands::ShiftedApart::mark(island.contacts, bodies);
+  if (within && carried) {
+    islands::ShiftedApart::mark(island.contacts, workers);
+    shifts_ = true;
+  }
   return effort;
 }
 

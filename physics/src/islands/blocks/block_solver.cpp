@@ -175,7 +175,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   lags_.resize(contacts_.room);
   each_block([&](const Rows& some) { kernels.prepare(some); });
   contacts_.prepare_drifts(bodies_, false);
-  holds_.gather(contacts_, h);
+  holds_.gather(contacts_, rolls_, h);
   reach_.forget();
   joints_.build(island.joints, bodies, places_, bodies_, h, dt, work_);
   spins_.begin(joints_.empty() ? 0 : bodies_.size());

@@ -50,7 +50,10 @@ class BlockSolver {
   void begin(std::size_t bodies, double parts) {
     places_.assign(bodies, 0);
     parts_ = parts;
+    shifts_ = false;
   }
+  /// Whether contacts of one of the islands were marked, so that `ShiftedApart` shifts them.
+  [[nodiscard]] bool shifts() const { return shifts_; }
   /// Moves the bodies of islands by `dt`; fills in the impulses of their contacts and joints. Islands do not
   /// depend on each other.
   /// @param moved  by index: set for the bodies that were moved
@@ -82,7 +85,7 @@ class BlockSolver {
     bool conveys = false, uneven = false, immovable = false, driven = false;
   };
   struct Marks {
-    bool impact = false, springs_back = false, pushed = false;
+    bool impact = false, springs_back = false, rolls = false, pushed = false;
   };
   /// The jointed bodies of an island.
   struct JointedFlight {
@@ -189,6 +192,7 @@ class BlockSolver {
   std::vector<BodyLag> lags_;
   std::vector<BodyLag> sub_starts_;  ///< linear displacements at the start of the sub-step
   islands::IslandDepth depth_;
+  bool shifts_ = false;
   std::vector<std::uint32_t> island_of_;              ///< of bodies_: its index among the present islands
   std::vector<islands::IslandEnergy> energies_;       ///< of the present islands
   std::vector<islands::IslandEnergy> even_energies_;  ///< of each body with the same moment about every axis
@@ -207,6 +211,7 @@ class BlockSolver {
   bool carries_on_ = false;  ///< bodies start the sub-step with what contacts gave them in the one before
   bool rebounded_ = false;   ///< something sprang back in the sub-step before
   bool bouncy_ = false;      ///< some contact has restitution
+  bool rolls_ = false;       ///< some contact resists rolling
   bool meets_ = false;       ///< some contact is an impact
   bool conveyed_ = false;    ///< some surface moves
   bool driven_ = false;      ///< a drive holds some body

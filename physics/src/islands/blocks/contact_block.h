@@ -63,17 +63,23 @@ struct InertiaRow {
   LanesSymmetric inverse_a, inverse_b;
 };
 
-struct ContactBlock {
-  std::uint32_t a[lane_count], b[lane_count];        ///< places of the bodies in the solver
-  std::uint32_t to_a[lane_count], to_b[lane_count];  ///< where their velocities go: for an immovable body, to
-                                                     ///< a place that is never read
-  std::uint32_t point = 0, friction = 0;             ///< first rows
-  std::uint32_t inertia = 0;                         ///< its row, if `even` is false
-  std::int8_t points = 0;     ///< of the lane with the most; the points that other lanes lack have no mass
-  std::int8_t frictions = 0;  ///< none, one at the middle of several points, or one per point
-  bool drifts = false;        ///< some surface moves: there are rows for it
-  bool springs = false;       ///< some point may spring back
-  bool even = true;           ///< all bodies have the same moment about every axis
+/// Which rows a block has.
+struct BlockMakeup {
+  std::uint32_t point = 0, friction = 0;  ///< first rows
+  std::uint32_t inertia = 0;              ///< its row, if `even` is false
+  std::int8_t points = 0;                 ///< of the lane with the most; those that other lanes lack have no mass
+  std::int8_t frictions = 0;              ///< none, one at the middle of several points, or one per point
+  bool even = true;                       ///< all bodies have the same moment about every axis
+
+  [[nodiscard]] bool central() const { return frictions == 1 && points > 1; }
+};
+
+struct ContactBlock : BlockMakeup {
+  std::uint32_t a[lane_count], b[lane_count];            ///< places of the bodies in the solver
+  std::uint32_t to_a[lane_count], to_b[lane_count];      ///< where their velocities go: for an immovable body, to
+                                                         ///< a place that is never read
+  bool drifts = false;                                   ///< some surface moves: there are rows for it
+  bool springs = false;                                  ///< some point may spring back
   std::int8_t round_a[lane_count], round_b[lane_count];  ///< -1 for a ball: no contact can rock it
   Lanes3 normal, tangent1, tangent2;
   Lanes inverse_mass_a, inverse_mass_b;
@@ -82,8 +88,6 @@ struct ContactBlock {
   Lanes twist_mass, twist, total_twist;      ///< about the normal, if friction is at the middle
   Mask hard;                                 ///< not soft: an impact
   Mask pressed, held;                        ///< by an impulse in this sub-step; by friction without sliding
-
-  [[nodiscard]] bool central() const { return frictions == 1 && points > 1; }
 };
 
 /// Two balls, or one on an immovable body: an impulse along the line of centers turns nothing.

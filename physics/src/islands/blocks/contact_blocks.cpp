@@ -31,7 +31,7 @@ void put(MeetingRow& row, int lane, const contacts::Closing& closing, bool heede
 }
 
 template <class Visit>
-void each_lane(const std::vector<ContactBlocks::Origin>& origins, const threads::Workers& work, const Visit& visit) {
+void each_lane(const Uncleared<ContactBlocks::Origin>& origins, const threads::Workers& work, const Visit& visit) {
   constexpr std::size_t worth_a_part = 16;
   work.ranges(origins.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -56,6 +56,7 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
   work.ranges(fillings_.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Filling& filling = fillings_[i];
+      clear(filling);
       if (!filling.of_balls) clear_rows(blocks[filling.index], filling, contacts);
       for (std::uint32_t lane = 0; lane < filling.count; ++lane) {
         const std::uint32_t number = sorted_[filling.first + lane];
@@ -76,6 +77,20 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
         to_nobody(blocks[filling.index]);
     }
   });
+}
+
+void ContactBlocks::clear(const Filling& filling) {
+  if (filling.of_balls) {
+    balls[filling.index] = {};
+    ball_meetings[filling.index] = {};
+    ball_origins[filling.index] = {};
+    return;
+  }
+  ContactBlock& block = blocks[filling.index];
+  const BlockMakeup makeup = block;
+  block = {makeup};
+  meetings[filling.index] = {};
+  origins[filling.index] = {};
 }
 
 /// Rows keep what an earlier step left in them. What is filled in for every lane needs no clearing.

@@ -9,6 +9,7 @@
 #include "islands/blocks/coloring.h"
 #include "islands/blocks/contact_block.h"
 #include "islands/blocks/island_body.h"
+#include "islands/blocks/uncleared.h"
 #include "step/keyed_step.h"
 #include "threads/workers.h"
 
@@ -55,15 +56,15 @@ class ContactBlocks {
     bool a_moves, b_moves;
   };
   std::vector<Ends> ends;  ///< of the contacts, in their order
-  std::vector<ContactBlock> blocks;
-  std::vector<BallBlock> balls;
+  Uncleared<ContactBlock> blocks;
+  Uncleared<BallBlock> balls;
   std::size_t pairs = 0, ball_pairs = 0;  ///< those of two movable bodies come first
   std::vector<PointRow> points;           ///< more than are used
   std::vector<FrictionRow> frictions;     ///< more than are used
   std::vector<DriftRow> drifts;           ///< parallel to `frictions`, or empty if no surface moves and nothing is led
   std::vector<InertiaRow> inertias;
-  std::vector<MeetingRow> meetings, ball_meetings;
-  std::vector<Origin> origins, ball_origins;
+  Uncleared<MeetingRow> meetings, ball_meetings;
+  Uncleared<Origin> origins, ball_origins;
 
   /// Blocks, or balls, of one color, in the order in which they are solved. They share no movable body.
   struct Phase {
@@ -97,6 +98,7 @@ class ContactBlocks {
   void lay_out();
   void open(const Makeup& makeup);
   void find_phases();
+  void clear(const Filling& filling);
   void clear_rows(const ContactBlock& block, const Filling& filling,
                   std::span<contacts::ContactConstraint* const> contacts);
   void fill(std::size_t block, int lane, contacts::ContactConstraint& contact, const std::vector<IslandBody>& bodies,

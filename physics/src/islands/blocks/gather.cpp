@@ -46,6 +46,7 @@ void BlockSolver::take(std::size_t place, const Body& body, const Load& load, In
   BodyPace& pace = paces_[place] = {};
   BodyLanes& velocity = velocities_[place] = {};
   displacements_[place] = {};
+  turns_[place] = {};
   lags_[place] = {};
   Traits& traits = traits_[place] = {};
   entry.index = indices_[place];
@@ -87,7 +88,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   const std::size_t count = indices_.size();
   bodies_.resize(count);
   paces_.resize(count);
-  turns_.assign(count, {});
+  turns_.resize(count);
   velocities_.resize(count);
   displacements_.resize(count);
   lags_.resize(count);
@@ -100,6 +101,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   bodies_[0].index = indices_[0];
   paces_[0] = {};
   velocities_[0] = displacements_[0] = {};
+  turns_[0] = {};
   lags_[0] = {};
   each_body([&](std::size_t i) {
     constexpr std::size_t ahead = 4;
@@ -112,7 +114,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   uneven_.clear();
   rebounds_.clear();  // of the island before
   led_.clear();
-  bouncy_ = meets_ = conveyed_ = any_stale_ = driven_ = rebounded_ = false;
+  bouncy_ = meets_ = rolls_ = conveyed_ = any_stale_ = driven_ = rebounded_ = false;
   for (std::uint32_t i = 1; i < count; ++i) {
     conveyed_ = conveyed_ || traits_[i].conveys;
     driven_ = driven_ || traits_[i].driven;
@@ -151,11 +153,13 @@ void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const st
                      trembling * std::max(loads[contact.a].acceleration.norm(), loads[contact.b].acceleration.norm()));
       contacts::foresee(contact, {linear_of(velocities_[a]), angular_of(velocities_[a])},
                         {linear_of(velocities_[b]), angular_of(velocities_[b])}, closings_[i], dt);
-      marks_[i] = {contact.impact, contact.restitution > 0, false};
+      marks_[i] = {contact.impact, contact.restitution > 0,
+                   contact.rolling_friction > 0 || contact.spinning_friction > 0, false};
     }
   });
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     bouncy_ = bouncy_ || marks_[i].springs_back;
+    rolls_ = rolls_ || marks_[i].rolls;
     meets_ = meets_ || marks_[i].impact;
     if (marks_[i].impact) paces_[places_[contacts[i]->a]].impact = paces_[places_[contacts[i]->b]].impact = true;
   }

@@ -74,8 +74,9 @@ void IslandHolds::gather(const islands::IslandContents& island, const std::vecto
   }
 }
 
-void IslandHolds::gather(const ContactBlocks& contacts, double h) {
+void IslandHolds::gather(const ContactBlocks& contacts, bool rolls, double h) {
   rolls_.clear();
+  if (!rolls) return;
   for (std::uint32_t i = 0; i < contacts.size(); ++i)
     for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
       ContactConstraint* contact = contacts.origin(i)[lane];

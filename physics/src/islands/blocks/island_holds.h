@@ -17,7 +17,8 @@ class IslandHolds {
   void gather(const islands::IslandContents& island, const std::vector<state::Body>& bodies,
               const std::vector<std::uint32_t>& places, std::vector<IslandBody>& entries, bool driven, double h);
   /// Finds resistances to rolling, with the impulses that they kept.
-  void gather(const ContactBlocks& contacts, double h);
+  /// @param rolls  some contact resists
+  void gather(const ContactBlocks& contacts, bool rolls, double h);
   [[nodiscard]] bool empty() const { return drives_.empty() && springs_.empty() && rolls_.empty(); }
 
   /// @param ahead  time from the end of the sub-step to that of the step, s
