@@ -222,12 +222,13 @@ void BroadPhase::count_out() {
 }
 
 void BroadPhase::choose_among_kept(const threads::Workers& work) {
-  marks_.resize(kept_.size());
-  work.ranges(kept_.size(), worth_merging, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) marks_[i] = may_meet(kept_[i].first, kept_[i].second) ? 1 : 0;
+  chosen_parts_.resize(std::max(chosen_parts_.size(), work.range_count(kept_.size(), worth_merging)));
+  for (std::vector<Pair>& part : chosen_parts_) part.clear();
+  work.numbered_ranges(kept_.size(), worth_merging, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (may_meet(kept_[i].first, kept_[i].second)) chosen_parts_[part].push_back(kept_[i]);
   });
-  for (std::size_t i = 0; i < kept_.size(); ++i)
-    if (marks_[i] != 0) pairs_.push_back(kept_[i]);
+  for (const std::vector<Pair>& part : chosen_parts_) pairs_.insert(pairs_.end(), part.begin(), part.end());
   count_out();
 }
 

@@ -99,8 +99,8 @@ class BroadPhase {
   struct MergedPart {
     std::vector<Pair> fresh, all;
   };
-  std::vector<MergedPart> merged_parts_;  ///< by the first body
-  std::vector<char> marks_;               ///< of kept_
+  std::vector<MergedPart> merged_parts_;         ///< by the first body
+  std::vector<std::vector<Pair>> chosen_parts_;  ///< of kept_, in their order
   std::vector<std::uint32_t> near_;
   bool crowded_ = false;  ///< too many pairs to keep
   std::vector<Pair> pairs_;
