@@ -138,6 +138,7 @@ double volume(const Solid& solid) noexcept {
 }
 
 MassProperties mass_properties(const Shape& shape, double mass) {
+  validate(shape.solid);
   shapes::require_positive(mass, "mass");
   Vec3 center(0, 0, 0);
   Mat3 inertia;

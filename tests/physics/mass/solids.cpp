@@ -50,6 +50,14 @@ TEST_CASE("cylinder, cone and ellipsoid are those of the tables") {
                     "semi-axis y of an ellipsoid must be positive and finite, but is 0");
 }
 
+TEST_CASE("solids that are none have no mass") {
+  CHECK_THROWS_WITH((void)mass_properties(Shape{Sphere{-1}}, 1),
+                    "radius of a sphere must be positive and finite, but is -1");
+  CHECK_THROWS_WITH((void)mass_properties(Shape{Box{{0.5, 0, 0.5}}}, 1),
+                    "half extent y of a box must be positive and finite, but is 0");
+  CHECK_THROWS_AS((void)mass_properties(Shape{Cone{1, 0}}, 1), std::invalid_argument);
+}
+
 TEST_CASE("a tetrahedron's tensor is the published one, as a mesh and as a hull") {
   // Tonon, Explicit exact formulas for the 3-D tetrahedron inertia tensor, 2004: of the unit corner at density 1 the
   // integral of x^2 is 1/60 and of x y 1/120, about the corner.

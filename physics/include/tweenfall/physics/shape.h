@@ -102,7 +102,7 @@ void validate(const Solid& solid);
 [[nodiscard]] double volume(const Solid& solid) noexcept;  ///< m^3; infinity for scenery
 
 /// Mass properties of a uniform solid of the given mass. Sources: closed forms, e.g. Goldstein, Classical Mechanics.
-/// @throws std::invalid_argument for scenery, or mass not > 0.
+/// @throws std::invalid_argument for scenery, for sizes that `validate` refuses, or mass not > 0.
 [[nodiscard]] MassProperties mass_properties(const Shape& shape, double mass);
 
 /// Mass properties of the volume inside a closed mesh, filled evenly, in the mesh's own space.
