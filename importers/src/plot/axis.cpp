@@ -17,7 +17,7 @@ double power_of_ten_below(double size) {
   return power;
 }
 
-/// With at most `digits` digits after the first, without trailing zeros: "-1.25e300".
+/// With at most `digits` digits after the first, without trailing zeros: "-1.25e300", "2.5".
 std::string exponent_text(double number, int digits) {
   double power = 1;
   int exponent = 0;
@@ -29,7 +29,8 @@ std::string exponent_text(double number, int digits) {
     mantissa.pop_back();
     ++exponent;
   }
-  return number == 0 ? "0" : mantissa + "e" + std::to_string(exponent);
+  if (number == 0) return "0";
+  return exponent == 0 ? mantissa : mantissa + "e" + std::to_string(exponent);
 }
 
 }  // namespace

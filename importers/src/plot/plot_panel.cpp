@@ -19,6 +19,30 @@ const char* component_color(const std::string& name) {
   return "#23262b";
 }
 
+namespace {
+
+struct LevelLabels {
+  std::vector<std::string> texts;
+  std::string base;  ///< what they are counted from, if they are
+};
+
+/// A curve that hardly changes has levels with more digits than the margin holds: these are counted from the lowest.
+LevelLabels labels_of(const std::vector<double>& levels) {
+  LevelLabels labels{tick_texts(levels), {}};
+  constexpr double gap = 6, hardly = 1e-3;
+  const auto fits = [](const std::string& text) { return text_width(text) <= left_margin - gap; };
+  if (std::all_of(labels.texts.begin(), labels.texts.end(), fits)) return labels;
+  if (levels.back() - levels.front() > hardly * std::abs(levels.front())) return labels;
+  labels.base = labels.texts.front();
+  std::vector<double> above;
+  for (const double level : levels) above.push_back(level - levels.front());
+  labels.texts = tick_texts(above);
+  for (std::size_t i = 1; i < above.size(); ++i) labels.texts[i].insert(0, "+");
+  return labels;
+}
+
+}  // namespace
+
 void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
   const double left = panel.time.from, right = panel.time.to, bottom = panel.value.from, top = panel.value.to;
   svg.leaf("rect", {{"x", px(left)},
@@ -38,7 +62,7 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
                         {"fill", "#eeeeea"}});
   std::vector<double> levels;
   if (!panel.names.empty()) levels = ticks(panel.value, static_cast<int>((bottom - top) / 28));
-  const std::vector<std::string> level_texts = tick_texts(levels);
+  const LevelLabels labels = labels_of(levels);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const double level = levels[i];
     const double y = panel.value.place(level);
@@ -47,7 +71,7 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
     svg.text(
         "text",
         {{"x", px(left - 6)}, {"y", px(y + 3.5)}, {"font-size", "10"}, {"text-anchor", "end"}, {"fill", "#6d7178"}},
-        level_texts[i]);
+        labels.texts[i]);
   }
   const std::vector<double> moments = ticks(panel.time, static_cast<int>((right - left) / 55));
   const std::vector<std::string> moment_texts = tick_texts(moments);
@@ -78,8 +102,10 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
   const std::string title = shortened(panel.title, (x - left) / 1.25);
   svg.text("text", {{"x", px(left)}, {"y", px(top - 6)}, {"font-weight", "600"}, {"fill", "#23262b"}}, title);
   const double after = left + 1.25 * text_width(title) + 6;
-  if (!panel.unit.empty() && after + 1.1 * text_width(panel.unit) < x)
-    svg.text("text", {{"x", px(after)}, {"y", px(top - 6)}, {"fill", "#6d7178"}}, panel.unit);
+  const std::string unit =
+      labels.base.empty() ? panel.unit : panel.unit + (panel.unit.empty() ? "" : " ") + "above " + labels.base;
+  if (!unit.empty() && after + 1.1 * text_width(unit) < x)
+    svg.text("text", {{"x", px(after)}, {"y", px(top - 6)}, {"fill", "#6d7178"}}, unit);
 }
 
 namespace {

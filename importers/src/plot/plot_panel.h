@@ -12,6 +12,9 @@
 
 namespace tweenfall::plotting {
 
+/// Where labels of values stand, px.
+constexpr double left_margin = 58;
+
 /// Whether a panel shows the values of points or their rates.
 enum class Shows { values, rates };
 

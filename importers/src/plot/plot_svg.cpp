@@ -11,7 +11,7 @@ namespace tweenfall {
 namespace plotting {
 namespace {
 
-constexpr double left_margin = 58, right_margin = 16;
+constexpr double right_margin = 16;
 constexpr double head = 52, title_room = 26, value_height = 150, rate_height = 90, between = 24, below = 28, foot = 8;
 
 /// Width of a column for a number of columns, px.

@@ -72,6 +72,22 @@ TEST_CASE("a plot marks each key, the handles that keys have and the events") {
   CHECK(count(svg, "class=\"curve\"") == 2);
 }
 
+TEST_CASE("what hardly changes has its levels counted from the lowest, where all their digits would not fit") {
+  const auto plotted = [](double from, double to) {
+    return plot_svg(stage_of({"lamp", "energy", keyed_curve<double>({{0, from, Ease::linear()}, {1, to}})}, 1), nullptr,
+                    {.rates = false});
+  };
+  const std::string still = plotted(2.3, 2.3 + 1e-8);
+  CHECK(count(still, ">above 2.3<") == 1);
+  for (const char* level : {">0<", ">+5e-9<", ">+1e-8<"}) {
+    CAPTURE(level);
+    CHECK(count(still, level) == 1);
+  }
+  const std::string wide = plotted(2.3, 2.5);
+  CHECK(count(wide, ">above") == 0);
+  CHECK(count(wide, ">2.4<") == 1);
+}
+
 TEST_CASE("a recorded plot has the hand-off line and the simulated continuation") {
   const StageDescription stage = example_stage();
   const Recording recording = example_recording();
