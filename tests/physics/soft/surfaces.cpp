@@ -1,7 +1,66 @@
 #include "physics/soft/soft_scene.h"
+#include "processor_time.h"
 
 using namespace tweenfall;
 using namespace tweenfall::test;
+
+namespace {
+
+constexpr int long_side = 120, short_side = 3;
+
+/// A ribbon of very stiff springs along x, whose last nodes are pinned to a bar.
+SoftSettings ribbon(World& world) {
+  SoftSettings made = cloth({.along = {0.6, 0, 0},
+                             .across = {0, 0, 0.3},
+                             .columns = long_side,
+                             .rows = short_side,
+                             .material = {.stretching = 1e6, .damping = 1e3, .bending = 1e-4}});
+  made.solver = SoftSolver::springs;
+  const BodyId bar = world.add(
+      {.shape = {Box{Vec3(0.01, 0.01, 0.2)}}, .mass = 0.1, .motion = {.pose = {.position = Vec3(0.6, 0, 0.15)}}});
+  for (std::uint32_t j = 0; j <= short_side; ++j) {
+    made.pins.push_back({.node = j * (long_side + 1), .in_place = true});
+    made.pins.push_back({.node = j * (long_side + 1) + long_side, .body = bar, .in_place = true});
+  }
+  made.collide = false;
+  return made;
+}
+
+std::uint32_t across_of(std::uint32_t node) {
+  return node % (long_side + 1) * (short_side + 1) + node / (long_side + 1);
+}
+
+/// The same with its nodes numbered across it.
+SoftSettings numbered_across(SoftSettings made) {
+  const SoftSettings before = made;
+  for (std::uint32_t node = 0; node < made.positions.size(); ++node) {
+    made.positions[across_of(node)] = before.positions[node];
+    made.masses[across_of(node)] = before.masses[node];
+  }
+  for (SoftEdge& edge : made.edges)
+    edge = {across_of(edge.a), across_of(edge.b), edge.length, edge.stiffness, edge.damping};
+  for (SoftBend& bend : made.bends)
+    for (std::uint32_t& node : bend.nodes) node = across_of(node);
+  for (auto& triangle : made.triangles)
+    for (std::uint32_t& node : triangle) node = across_of(node);
+  for (SoftPin& pin : made.pins) pin.node = across_of(pin.node);
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("how the nodes of a stiff cloth are numbered changes neither its motion nor, by much, the time it takes") {
+  World along, across;
+  const SoftId first = add_soft(along, ribbon(along)), second = add_soft(across, numbered_across(ribbon(across)));
+  const double begin = processor_seconds();
+  for (int n = 0; n < 4; ++n) across.step(1.0 / 60);
+  const double between = processor_seconds();
+  for (int n = 0; n < 4; ++n) along.step(1.0 / 60);
+  CHECK(processor_seconds() - between < 4 * (between - begin));  // 15 times as long if it is not ordered anew
+  for (std::uint32_t node = 0; node < soft_positions(along, first).size(); ++node)
+    REQUIRE(near(soft_positions(along, first)[node], soft_positions(across, second)[across_of(node)], 1e-9));
+  CHECK(along.kinetic_energy() > 0.001);
+}
 
 TEST_CASE("the energy of a cantilevered cloth never grows") {
   for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs}) {

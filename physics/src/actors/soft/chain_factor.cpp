@@ -6,21 +6,14 @@
 
 namespace tweenfall::soft {
 
-std::size_t ChainFactor::reach_of(const SoftSettings& made) {
-  if (!made.enclosures.empty()) return 0;
-  std::size_t reach = 0;
-  const auto join = [&reach](std::uint32_t a, std::uint32_t b) {
-    reach = std::max<std::size_t>(reach, a > b ? a - b : b - a);
-  };
-  for (const SoftEdge& edge : made.edges) join(edge.a, edge.b);
-  for (const SoftBend& bend : made.bends)
-    for (std::size_t k = 1; k < 4; ++k)
-      for (std::size_t other = 0; other < k; ++other)
-        if (bend.weights[k] != 0 && bend.weights[other] != 0) join(bend.nodes[k], bend.nodes[other]);
-  for (const SoftTetrahedron& solid : made.tetrahedra)
-    for (std::size_t k = 1; k < 4; ++k)
-      for (std::size_t other = 0; other < k; ++other) join(solid.nodes[k], solid.nodes[other]);
-  return reach <= most_reach ? reach : 0;
+void ChainFactor::clear(const NodeOrder& order) {
+  clear(order.size(), order.reach());
+  order_ = &order;
+}
+
+void ChainFactor::clear(std::size_t nodes) {
+  clear(nodes, nodes);
+  order_ = nullptr;
 }
 
 void ChainFactor::clear(std::size_t nodes, std::size_t reach) {
@@ -31,10 +24,19 @@ void ChainFactor::clear(std::size_t nodes, std::size_t reach) {
   rows_.assign(size_ * width_, 0);
 }
 
+std::vector<std::size_t> ChainFactor::nodes_near(std::size_t node) const {
+  const std::size_t place = place_of(node), reach = band_ / 3;
+  std::vector<std::size_t> near;
+  for (std::size_t other = place - std::min(place, reach); other < std::min(nodes_, place + reach + 1); ++other)
+    near.push_back(node_at(other));
+  return near;
+}
+
 void ChainFactor::add(std::size_t i, std::size_t j, const Mat3& block) {
+  const std::size_t at_i = place_of(i), at_j = place_of(j);
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) {
-      const std::size_t row = 3 * i + static_cast<std::size_t>(r), column = 3 * j + static_cast<std::size_t>(c);
+      const std::size_t row = 3 * at_i + static_cast<std::size_t>(r), column = 3 * at_j + static_cast<std::size_t>(c);
       if (column <= row)
         at(row, column) += block(r, c);
       else if (i != j)
@@ -43,10 +45,11 @@ void ChainFactor::add(std::size_t i, std::size_t j, const Mat3& block) {
 }
 
 Mat3 ChainFactor::block(std::size_t i, std::size_t j) const {
+  const std::size_t at_i = place_of(i), at_j = place_of(j);
   Mat3 found = Mat3::Zero();
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) {
-      const std::size_t row = 3 * i + static_cast<std::size_t>(r), column = 3 * j + static_cast<std::size_t>(c);
+      const std::size_t row = 3 * at_i + static_cast<std::size_t>(r), column = 3 * at_j + static_cast<std::size_t>(c);
       const std::size_t low = std::max(row, column), high = std::min(row, column);
       if (low - high <= band_) found(r, c) = rows_[low * width_ + high + band_ - low];
     }
@@ -54,7 +57,8 @@ Mat3 ChainFactor::block(std::size_t i, std::size_t j) const {
 }
 
 void ChainFactor::fix(std::size_t node) {
-  for (std::size_t own = 3 * node; own < 3 * node + 3; ++own) {
+  const std::size_t place = place_of(node);
+  for (std::size_t own = 3 * place; own < 3 * place + 3; ++own) {
     for (std::size_t other = own - std::min(own, band_); other <= own; ++other) at(own, other) = 0;
     for (std::size_t other = own + 1; other < std::min(size_, own + width_); ++other) at(other, own) = 0;
     at(own, own) = 1;
@@ -87,7 +91,14 @@ bool ChainFactor::factor() {
 }
 
 void ChainFactor::solve(std::vector<Vec3>& values) const {
-  double* const value = values.front().data();
+  if (!order_ || order_->is_natural()) return solve_in_place(values.front().data());
+  std::vector<Vec3> ordered(nodes_);
+  for (std::size_t place = 0; place < nodes_; ++place) ordered[place] = values[node_at(place)];
+  solve_in_place(ordered.front().data());
+  for (std::size_t place = 0; place < nodes_; ++place) values[node_at(place)] = ordered[place];
+}
+
+void ChainFactor::solve_in_place(double* value) const {
   for (std::size_t i = 0; i < size_; ++i) {
     const double* const column = &columns_[i * width_ - i];
     const double known = value[i];

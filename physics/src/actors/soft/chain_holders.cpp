@@ -49,7 +49,7 @@ bool ChainAndHolders::factor(std::span<const Held> held, const std::vector<Mat3>
   if (holders_.size() > most_holders) holders_.clear();
   const std::size_t directions = 6 * holders_.size();
   joined_.assign(directions, std::vector<Vec3>(nodes, Vec3(0, 0, 0)));
-  if (!holders_.empty()) border_.clear(2 * holders_.size(), 2 * holders_.size());
+  if (!holders_.empty()) border_.clear(2 * holders_.size());
   for (std::size_t p = 0; p < holders_.size(); ++p)
     for (std::size_t i = 0; i < 2; ++i) border_.add(2 * p + i, 2 * p + i, blocks[nodes + 2 * holders_[p] + i]);
   std::vector<std::size_t> pins(nodes, held.size());
@@ -64,8 +64,7 @@ bool ChainAndHolders::factor(std::span<const Held> held, const std::vector<Mat3>
       if (pin.partner == Held::nobody) continue;
       const std::size_t holder = place_of(pin.partner), node = pin.node;
       const Lever lever = lever_of(pin);
-      const std::size_t first = node - std::min(node, chain_.reach());
-      for (std::size_t other = first; other < std::min(nodes, node + chain_.reach() + 1); ++other) {
+      for (const std::size_t other : chain_.nodes_near(node)) {
         const Mat3 block = chain_.block(other, node);
         if (pins[other] == held.size()) {
           const Mat3 linear = block * lever.linear, angular = block * lever.angular;

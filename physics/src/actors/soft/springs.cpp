@@ -31,9 +31,12 @@ constexpr int most_newton_steps = 12, most_exact_steps = 60;
 /// more: a cloth of very many cells that are far longer than wide would take seconds for a step.
 constexpr double most_passes = 1000, fewest_passes = 100, many_nodes = 2000;
 constexpr int most_halvings = 12, most_ventured = 2;
-/// How many times as stiff as heavy in a sub-step what is no chain is when its matrix is worth being factored, over the
-/// square of how far it reaches.
-constexpr double stiff_enough = 100;
+/// How far nodes of a chain reach at most.
+constexpr std::size_t reach_of_chain = 3;
+/// How many times as stiff as heavy in a sub-step what is no chain is when its matrix is worth factoring, over the
+/// fourth power of how far it reaches: conjugate gradients take passes with the root of the one, factoring with the
+/// square of the other.
+constexpr double stiff_enough = 1.0 / 400;
 /// Against the mass that a contact moves in a sub-step: how stiff it is, and how many times as stiff friction is that
 /// holds: what it holds creeps by its force over that in each sub-step.
 constexpr double contact_stiffness = 1e4, grip_stiffness = 100;
@@ -61,7 +64,8 @@ class Springs {
         x_(step.body.positions),
         nodes_(x_.size()),
         energies_(step.body, step.h),
-        reach_(worth_factoring(made_, step.h) ? ChainFactor::reach_of(made_) : 0) {}
+        order_(made_),
+        factors_(is_worth_factoring()) {}
 
   void solve() {
     begin();
@@ -73,12 +77,13 @@ class Springs {
   }
 
  private:
-  [[nodiscard]] static bool worth_factoring(const SoftSettings& made, double h) {
-    const auto reach = static_cast<double>(ChainFactor::reach_of(made));
-    if (reach <= ChainFactor::most_of_chain) return true;
-    return std::ranges::any_of(made.edges, [&](const SoftEdge& edge) {
-      const double stiff = edge.stiffness * h * h * (1 / made.masses[edge.a] + 1 / made.masses[edge.b]);
-      return stiff > stiff_enough * reach * reach;
+  [[nodiscard]] bool is_worth_factoring() const {
+    if (!can_be_factored(made_, order_)) return false;
+    if (order_.reach() <= reach_of_chain) return true;
+    const auto far = static_cast<double>(order_.reach());
+    return std::ranges::any_of(made_.edges, [&](const SoftEdge& edge) {
+      const double stiff = edge.stiffness * step_.h * step_.h * (1 / made_.masses[edge.a] + 1 / made_.masses[edge.b]);
+      return stiff > stiff_enough * far * far * far * far;
     });
   }
   [[nodiscard]] std::size_t linear_of(std::uint32_t partner) const { return nodes_ + 2 * std::size_t{partner}; }
@@ -274,7 +279,7 @@ class Springs {
       blocks_[linear_of(contact.partner)] += resisting_[k];
       blocks_[linear_of(contact.partner) + 1] += lever.transpose() * resisting_[k] * lever;
     }
-    chained_ = reach_ > 0 && factor_chain();
+    chained_ = factors_ && factor_chain();
     for (const Held& held : step_.held) {
       if (held.partner == Held::nobody) continue;
       const Mat3 lever = crossing(held.arm);
@@ -287,7 +292,7 @@ class Springs {
   /// Factors the matrix of all nodes together, with their holders.
   [[nodiscard]] bool factor_chain() {
     ChainFactor& chain = all_.chain();
-    chain.clear(nodes_, reach_);
+    chain.clear(order_);
     for (std::size_t i = 0; i < nodes_; ++i) chain.add(i, i, mass_[i] * Mat3::Identity());
     energies_.add_all_blocks(chain);
     for (std::size_t k = 0; k < step_.contacts.size(); ++k)
@@ -433,7 +438,8 @@ class Springs {
   std::vector<double> stiffness_;  ///< by contact, N/m
   std::vector<double> grips_;      ///< by contact: what friction holds, N
   std::vector<Mat3> resisting_;    ///< by contact, kg
-  std::size_t reach_;
+  NodeOrder order_;
+  bool factors_;
   ChainAndHolders all_;
   bool chained_ = false;
   /// The last position of Newton's method that was an improvement, and the step from there.

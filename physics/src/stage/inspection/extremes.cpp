@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "actors/soft/chain_factor.h"
+#include "actors/soft/node_order.h"
 #include "actors/soft/resolved.h"
 #include "forces/integrators/integrators.h"
 #include "forces/pace.h"
@@ -157,7 +157,7 @@ class Finder {
   /// What is too wide to be solved at once is left to conjugate gradients, which have an end.
   void look_at_stiffness(std::size_t soft, const SoftSettings& made, double h) {
     constexpr double stiffest = 1e6;  // against the mass of a node
-    if (soft::ChainFactor::reach_of(made) > 0) return;
+    if (soft::can_be_factored(made, soft::NodeOrder(made))) return;
     for (const SoftEdge& edge : made.edges) {
       const double most = stiffest / (h * h * (1 / made.masses[edge.a] + 1 / made.masses[edge.b]));
       if (!(edge.stiffness > most)) continue;
