@@ -45,6 +45,8 @@ TEST_CASE("every word of a world's strategies has a document") {
         std::set<std::string>{"all_pairs", "bvh", "grid", "kd_tree", "octree", "quadtree", "sweep"});
   CHECK(names_in("forces") ==
         std::set<std::string>{"attractor", "buoyancy", "damper", "drag", "field", "torque", "vortex", "wind"});
+  CHECK(names_in("mass") == std::set<std::string>{"rolling", "self_righting"});
+  CHECK(names_in("contacts") == std::set<std::string>{"ladders", "slopes"});
   CHECK(names_in("vehicle") == std::set<std::string>{"brakes", "climbs", "slides"});
   CHECK(names_in("particles") == std::set<std::string>{"fountain", "rising_rate", "swings"});
   CHECK(names_in("plane") ==
@@ -223,6 +225,44 @@ TEST_CASE("what is heavier below stands up again, by a density or by mass proper
   CHECK(upright("heavier below") > 0.99);
   CHECK(upright("leaden core") > 0.99);
   CHECK(place_of(stage, "even").x() > start + 0.2);
+}
+
+TEST_CASE("solids roll down a slope as their moments of inertia say") {
+  Stage stage = lecture("mass/rolling");
+  // k m r^2 is the moment about the axis: of the capsule from its cylinder and its ball, of the wheels from their
+  // parts.
+  const double tube = 0.4, ends = 0.4 / 3, wheel = 2 * 1000 * pi * 0.15 * 0.15 * 0.1, axle = 1000 * 0.06 * 0.06 * 0.4;
+  const std::pair<const char*, double> solids[] = {
+      {"ball", 0.4},
+      {"cylinder", 0.5},
+      {"capsule", (0.5 * tube + 0.4 * ends) / (tube + ends)},
+      {"wheels", (0.5 * wheel + axle * 2 * 0.06 * 0.06 / (12 * 0.15 * 0.15)) / (wheel + axle)},
+      {"hoop", 1},
+      {"needle", 0.025},
+      {"cube", 0.25},
+      {"dense inside", 2.0 / 7}};
+  std::vector<Vec3> starts;
+  for (const auto& [name, k] : solids) starts.push_back(place_of(stage, name));
+  stage.advance_to(3);
+  const double even = 0.5 * 9.81 * std::sin(pi / 18) * 9;
+  for (std::size_t i = 0; i < std::size(solids); ++i) {
+    CAPTURE(solids[i].first);
+    CHECK((place_of(stage, solids[i].first) - starts[i]).norm() ==
+          doctest::Approx(even / (1 + solids[i].second)).epsilon(5e-4));
+  }
+}
+
+TEST_CASE("boxes on a slope stay where their friction is above its tangent, and else slide as Coulomb says") {
+  Stage stage = lecture("contacts/slopes");
+  const double slope = 25 * pi / 180;
+  std::vector<std::pair<std::string, Vec3>> starts;
+  for (const char* name : {"0.471", "0.461", "0.3", "0"}) starts.emplace_back(name, place_of(stage, name));
+  stage.advance_to(2);
+  for (const auto& [name, start] : starts) {
+    CAPTURE(name);
+    const double pull = 9.81 * (std::sin(slope) - std::stod(name) * std::cos(slope));
+    CHECK(std::abs((place_of(stage, name) - start).norm() - std::max(0.0, 2 * pull)) < 1e-4);
+  }
 }
 
 TEST_CASE("a spring as a system spirals out by explicit and in by backward Euler, by its closed form") {
