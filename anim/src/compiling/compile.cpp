@@ -14,6 +14,7 @@
 #include "compiling/encode.h"
 #include "compiling/exact_pose.h"
 #include "compiling/fit.h"
+#include "compiling/measuring.h"
 #include "compiling/reach.h"
 #include "crowd/compiled_clip.h"
 
@@ -130,7 +131,8 @@ class Assembly {
   struct Made {
     std::vector<Form> forms;  ///< of all channels: they tell the clip
     std::shared_ptr<CompiledClip> clip;
-    std::optional<LargestError> at_some, at_all;
+    LargestError at_some = {};  ///< largest error at some instants
+    std::size_t measured = 0;   ///< at how many of them
   };
 
   Assembly(const ExactPose& exact, const std::vector<FittedChannel>& fits, const Reach& reach,
@@ -166,7 +168,7 @@ class Assembly {
     for (Made& made : made_)
       if (made.forms == forms) return made;
     std::shared_ptr<CompiledClip> clip = filled(forms, owners);
-    return made_.emplace_back(Made{.forms = std::move(forms), .clip = std::move(clip), .at_some = {}, .at_all = {}});
+    return made_.emplace_back(Made{.forms = std::move(forms), .clip = std::move(clip)});
   }
 
  private:
@@ -198,86 +200,82 @@ class Assembly {
   std::deque<Made> made_;
 };
 
-/// Every knot of the channels, in order.
-std::vector<double> knots_of(const std::vector<FittedChannel>& fits, double duration) {
-  std::vector<double> knots{0.0};
-  if (duration > 0) knots.push_back(duration);
-  for (const FittedChannel& channel : fits)
-    knots.insert(knots.end(), channel.fit.knots.begin(), channel.fit.knots.end());
-  std::ranges::sort(knots);
-  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
-  return knots;
+/// Where the errors of fitted channels tell the most.
+std::vector<Instant> instants_of(const std::vector<FittedChannel>& fits, const CurveKnots& knots, double duration) {
+  std::vector<const std::vector<double>*> channels;
+  channels.reserve(fits.size());
+  for (const FittedChannel& channel : fits) channels.push_back(&channel.fit.knots);
+  std::vector<double> bends;
+  for (const auto& kind : knots.of)
+    for (const std::vector<double>& of_node : kind) bends.insert(bends.end(), of_node.begin(), of_node.end());
+  return telling_instants(channels, std::move(bends), duration);
 }
 
-/// Every time at which something changes, from both sides, and some between.
-std::vector<Instant> measured_instants(const std::vector<double>& knots) {
-  std::vector<Instant> instants;
-  instants.reserve(5 * knots.size());
-  for (std::size_t i = 0; i < knots.size(); ++i) {
-    if (i > 0) instants.push_back({knots[i], Side::in});
-    instants.push_back({knots[i], Side::out});
-    if (i + 1 == knots.size()) break;
-    for (const double u : {0.27639320225002, 0.50931847710375, 0.77185319624461})
-      instants.push_back({knots[i] + u * (knots[i + 1] - knots[i]), Side::out});
-  }
-  return instants;
-}
+/// Finds the coarsest steps with which fitted channels keep the tolerance.
+class Search {
+ public:
+  Search(const ExactPose& exact, const CurveKnots& knots, const std::vector<FittedChannel>& fits, const Reach& reach,
+         const CrowdSettings& settings)
+      : tolerance_(settings.tolerance),
+        measuring_(exact, settings.arm, instants_of(fits, knots, exact.duration())),
+        assembly_(exact, fits, reach, settings) {}
 
-/// So many instants are measured while steps are searched for; what was found is measured at all of them.
-constexpr std::size_t most_searched = 4096;
-
-/// At most `most` of some instants, evenly chosen.
-std::vector<Instant> some_of(const std::vector<Instant>& instants, std::size_t most) {
-  if (instants.size() <= most) return instants;
-  std::vector<Instant> some;
-  some.reserve(most);
-  for (std::size_t i = 0; i < most; ++i) some.push_back(instants[i * instants.size() / most]);
-  return some;
-}
-
-/// Finds the coarsest steps that keep the tolerance. @param best_error written: the smallest of those measured
-std::shared_ptr<CompiledClip> coarsest(const ExactPose& exact, const std::vector<FittedChannel>& fits,
-                                       const Reach& reach, const CrowdSettings& settings, LargestError& best_error) {
-  // The error at times between the measured ones is hardly larger.
-  const double allowed = 0.97 * settings.tolerance;
-  const std::vector<Instant> all = measured_instants(knots_of(fits, exact.duration())),
-                             some = some_of(all, most_searched);
-  // They are measured again and again, as long as they find room.
-  constexpr std::size_t most_frames = 1'000'000;
-  std::vector<WorldFrame> frames;
-  if (some.size() * exact.nodes().size() <= most_frames) frames = exact_frames(exact, some);
-  Assembly assembly(exact, fits, reach, settings);
-  Assembly::Made* best = nullptr;
-  double holds = 0, fails = 0, share = 0.4 * settings.tolerance;
-  for (int attempt = 0; attempt < 12; ++attempt) {
-    Assembly::Made& made = assembly.made(share);
-    if (!made.at_some) made.at_some = largest_error(exact, *made.clip, settings.arm, some, frames);
-    const double error = made.at_some->distance;
-    if (error <= allowed) {
-      best = &made;
-      holds = share;
-      if (made.clip->timelines.empty()) break;
-      share =
-          fails > 0 ? std::sqrt(share * fails) : share * std::clamp(0.9 * allowed / std::max(error, 1e-300), 1.2, 4.0);
-    } else {
-      fails = share;
-      share = holds > 0 ? std::sqrt(share * holds) : share * std::clamp(0.9 * allowed / error, 0.1, 0.8);
+  /// @param error  written: that of what is returned, or else of the nearest
+  /// @return null if the fits do not keep it, however fine the steps
+  [[nodiscard]] std::shared_ptr<CompiledClip> run(LargestError& error) {
+    // What does not hold at some instants does not at all of them; where one fails at others, they count from then on.
+    constexpr int most_rounds = 12;
+    double share = first_share * tolerance_;
+    for (int round = 0; round < most_rounds; ++round) {
+      if (!holds(finest_share * tolerance_, error)) return nullptr;
+      share = coarsest_from(share);
+      if (share == 0) return nullptr;
+      Assembly::Made& made = assembly_.made(share);
+      error = measuring_.at_all(*made.clip, made.at_some, allowed());
+      if (error.distance <= allowed()) {
+        made.clip->error = error.distance;
+        return made.clip;
+      }
     }
-    if (holds > 0 && fails > 0 && fails < 1.05 * holds) break;
+    return nullptr;
   }
-  // What holds at some instants may not at all of them.
-  if (best) share = holds;
-  for (int attempt = 0; attempt < 6; ++attempt) {
-    Assembly::Made& made = assembly.made(share);
-    if (some.size() == all.size()) made.at_all = made.at_some;
-    if (!made.at_all) made.at_all = largest_error(exact, *made.clip, settings.arm, all);
-    if (made.at_all->distance < best_error.distance) best_error = *made.at_all;
-    made.clip->error = made.at_all->distance;
-    if (made.clip->error <= allowed) return made.clip;
-    share *= std::clamp(0.9 * allowed / made.clip->error, 0.1, 0.8);
+
+ private:
+  static constexpr double first_share = 0.4, finest_share = 1e-4;  // of the tolerance
+
+  /// The error at times between the measured ones is hardly larger.
+  [[nodiscard]] double allowed() const { return 0.97 * tolerance_; }
+
+  [[nodiscard]] bool holds(double share, LargestError& error) {
+    Assembly::Made& made = assembly_.made(share);
+    measuring_.at_some(*made.clip, made.at_some, made.measured);
+    error = made.at_some;
+    return error.distance <= allowed();
   }
-  return nullptr;
-}
+
+  /// The largest share that holds at some instants, sought from another on; 0 for none.
+  [[nodiscard]] double coarsest_from(double share) {
+    double good = 0, bad = 0;
+    for (int attempt = 0; attempt < 12; ++attempt) {
+      LargestError error;
+      if (holds(share, error)) {
+        good = share;
+        if (assembly_.made(share).clip->timelines.empty()) break;
+        share = bad > 0 ? std::sqrt(share * bad)
+                        : share * std::clamp(0.9 * allowed() / std::max(error.distance, 1e-300), 1.2, 4.0);
+      } else {
+        bad = share;
+        share = good > 0 ? std::sqrt(share * good) : share * std::clamp(0.9 * allowed() / error.distance, 0.1, 0.8);
+      }
+      if (good > 0 && bad > 0 && bad < 1.05 * good) break;
+    }
+    return good;
+  }
+
+  double tolerance_;
+  Measuring measuring_;
+  Assembly assembly_;
+};
 
 void check(const Clip& clip, const CrowdSettings& settings) {
   const auto require = [](bool holds, const std::string& what) {
@@ -300,18 +298,22 @@ CrowdClip compile(const Clip& clip, const Hierarchy& nodes, const CrowdSettings&
   check(clip, settings);
   const ExactPose exact(clip, nodes);
   const Reach reach = reach_of(exact, settings.arm);
-  LargestError error{std::numeric_limits<double>::infinity()};
-  const auto is_fine = [&] { return error.distance < 100 * float_resolution * reach.extent; };
+  LargestError nearest{std::numeric_limits<double>::infinity()};
+  const auto is_fine = [&] { return nearest.distance < 100 * float_resolution * reach.extent; };
   double look = longest_look;
-  for (double share = 0.3 * settings.tolerance; share > 1e-3 * settings.tolerance; share *= 0.2) {
+  for (double share = 0.3 * settings.tolerance; share > 1e-3 * settings.tolerance;) {
     const CurveKnots knots(clip, nodes, look);
-    if (const auto best = coarsest(exact, fitted_channels(exact, knots, reach, share), reach, settings, error))
-      return CrowdClip(best);
+    const std::vector<FittedChannel> fits = fitted_channels(exact, knots, reach, share);
+    LargestError error;
+    if (const auto best = Search(exact, knots, fits, reach, settings).run(error)) return CrowdClip(best);
+    if (error.distance < nearest.distance) nearest = error;
     if (!is_fine()) look /= 8;  // something went unseen
+    // As much finer as the error was too large, and a little.
+    share *= std::clamp(0.7 * settings.tolerance / error.distance, 0.2, 0.5);
   }
   throw std::invalid_argument("clip \"" + clip.name + "\" cannot be kept within " + number_text(settings.tolerance) +
                               " m" + (is_fine() ? " in float" : "") + "; the nearest is " +
-                              number_text(error.distance) + " m, at " + number_text(error.time) + " s" +
+                              number_text(nearest.distance) + " m, at " + number_text(nearest.time) + " s" +
                               (is_fine() ? "" : ", where it changes faster than can be found"));
 }
 

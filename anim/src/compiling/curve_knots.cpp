@@ -38,12 +38,17 @@ void add_repeats(const Curve<T>& curve, Outside rule, bool after, double duratio
 }
 
 template <class T>
+[[nodiscard]] bool is_formula(const Curve<T>& curve) {
+  const bool constant = curve.knots().empty() && curve.start() == curve.end();
+  return !constant && curve.spans().empty();
+}
+
+template <class T>
 void add_knots(const Curve<T>& curve, double duration, double look, std::vector<double>& out) {
   for (const double knot : curve.knots()) add_inside(knot, duration, out);
   if (std::isfinite(curve.start())) add_repeats(curve, curve.before(), false, duration, out);
   if (std::isfinite(curve.end())) add_repeats(curve, curve.after(), true, duration, out);
-  const bool constant = curve.knots().empty() && curve.start() == curve.end();
-  if (constant || !curve.spans().empty()) return;
+  if (!is_formula(curve)) return;
   const auto looks = static_cast<std::size_t>(std::min(std::ceil(duration / look), 1e5));
   for (std::size_t i = 1; i < looks; ++i)
     add_inside(duration * static_cast<double>(i) / static_cast<double>(looks), duration, out);
@@ -53,14 +58,22 @@ void add_knots(const Curve<T>& curve, double duration, double look, std::vector<
 
 CurveKnots::CurveKnots(const Clip& clip, const Hierarchy& nodes, double longest_look) : look(longest_look) {
   for (auto& kind : of) kind.resize(nodes.size());
+  for (auto& kind : formula) kind.resize(nodes.size(), 0);
   for (const Track& track : clip.tracks) {
     const std::optional<Kind> kind = kind_of(track);
     const std::optional<std::size_t> node = nodes.find(track.node);
     if (!kind || !node) continue;
     std::vector<double>& out = of[static_cast<std::size_t>(*kind)][*node];
+    char& by_formula = formula[static_cast<std::size_t>(*kind)][*node];
     // The last track of a whole property is the one that counts.
-    if (!component_named(track.property)) out.clear();
-    const auto add = [&](const auto& curve) { add_knots(curve, clip.duration, longest_look, out); };
+    if (!component_named(track.property)) {
+      out.clear();
+      by_formula = 0;
+    }
+    const auto add = [&](const auto& curve) {
+      add_knots(curve, clip.duration, longest_look, out);
+      if (is_formula(curve)) by_formula = 1;
+    };
     if (const auto* vectors = std::get_if<Curve<Vec3>>(&track.curve)) add(*vectors);
     if (const auto* rotations = std::get_if<Curve<Quat>>(&track.curve)) add(*rotations);
     if (const auto* numbers = std::get_if<Curve<double>>(&track.curve)) add(*numbers);

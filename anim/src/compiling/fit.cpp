@@ -24,6 +24,9 @@ constexpr double shortest_bent = 1e-6;  // s
 constexpr std::size_t most_for_each = 16, most_more = 20000;
 /// After so many jumps within each other's pieces, pieces are halved: that leads to an end soon.
 constexpr int deepest = 100;
+/// Where in a piece it is compared with the curves: at irregular places that no oscillation is likely to match.
+constexpr double look_places[] = {0.5,          0.2113248654, 0.7886751346, 0.0694318442,
+                                  0.9305681558, 0.3617261933, 0.6382738067};
 
 /// The values of a channel at one time, and how fast they change: up to four of each lane.
 struct Look {
@@ -32,10 +35,16 @@ struct Look {
 
 class Fitter {
  public:
-  /// @param knots  all of the curves, in order
+  /// @param knots     all of the curves, in order
+  /// @param formulas  whether there are formulas among the curves: they do not tell where they change
   Fitter(const ExactPose& exact, std::size_t group, Kind kind, const std::array<double, lane_count>& tolerance,
-         std::span<const double> knots)
-      : exact_(exact), first_(group * lane_count), kind_(kind), tolerance_(tolerance), knots_(knots) {}
+         std::span<const double> knots, bool formulas)
+      : exact_(exact),
+        first_(group * lane_count),
+        kind_(kind),
+        tolerance_(tolerance),
+        knots_(knots),
+        looks_first_(formulas ? std::size(look_places) : 3) {}
 
   [[nodiscard]] Look look(double time, Side side) const {
     Look look;
@@ -57,8 +66,9 @@ class Fitter {
     }
   }
 
-  /// @param most greatest number of knots; a fit that would need more is given up and returns none
-  [[nodiscard]] Fitted fit(std::span<const double> knots, bool cubic, std::size_t most) {
+  /// @param most   greatest number of knots; a fit that would need more is given up and returns none
+  /// @param brief  whether it is given up, too, where it would need far more if it went on as it began
+  [[nodiscard]] Fitted fit(std::span<const double> knots, bool cubic, std::size_t most, bool brief = false) {
     fit_ = {.kind = kind_, .cubic = cubic};
     most_ = most;
     given_up_ = false;
@@ -70,6 +80,7 @@ class Fitter {
       Look to = look(knots[i + 1], Side::in);
       align(to, from);
       piece(knots[i], from, knots[i + 1], to);
+      if (brief) given_up_ = given_up_ || is_hopeless(static_cast<double>(i + 1) / static_cast<double>(knots.size()));
     }
     // Held keys jump to their last value at the very end.
     Look last = look(knots.back(), Side::out);
@@ -255,6 +266,12 @@ class Fitter {
     return true;
   }
 
+  /// Whether the knots so far are a good part of all that a fit may take, for a small part of the curves' knots.
+  [[nodiscard]] bool is_hopeless(double part) const {
+    const double used = static_cast<double>(fit_.knots.size()) / static_cast<double>(most_);
+    return used > 0.1 && part < 0.25 * used;
+  }
+
   void add(double time, const Look& look) {
     if (fit_.knots.size() >= most_) {
       given_up_ = true;
@@ -267,20 +284,24 @@ class Fitter {
       fit_.values.insert(fit_.values.end(), std::begin(look.rate[c]), std::end(look.rate[c]));
   }
 
-  /// Whether the piece between two looks is near enough to the curves, at irregular times that no oscillation is likely
-  /// to match.
+  /// Whether the piece between two looks is near enough to the curves: between keys at few places, if it is much nearer
+  /// there than it must be.
   [[nodiscard]] bool near(double from, const Look& left, double to, const Look& right) const {
+    constexpr double much_nearer = 0.5;  // tolerances
     const double length = to - from;
     Look there;
-    for (const double u : {0.5, 0.2113248654, 0.7886751346, 0.0694318442, 0.9305681558, 0.3617261933, 0.6382738067}) {
+    double farthest = 0;  // tolerances
+    for (std::size_t i = 0; i < std::size(look_places); ++i) {
+      if (i == looks_first_ && farthest <= much_nearer) break;
+      const double u = look_places[i];
       const double time = from + u * length;
       const double h01 = fit_.cubic ? u * u * (3 - 2 * u) : u, h00 = 1 - h01;
       const double h10 = fit_.cubic ? u * (1 - u) * (1 - u) * length : 0,
                    h11 = fit_.cubic ? -u * u * (1 - u) * length : 0;
       // The lane that was off before is the likeliest to be so again.
       const std::size_t first = suspect_;
-      for (std::size_t i = 0; i < lane_count; ++i) {
-        const std::size_t lane = (first + i) % lane_count;
+      for (std::size_t k = 0; k < lane_count; ++k) {
+        const std::size_t lane = (first + k) % lane_count;
         look_at(lane, time, Side::out, there);
         double mixed[4] = {}, squared = 0, dot = 0;
         for (std::size_t c = 0; c < components(kind_); ++c) {
@@ -291,11 +312,14 @@ class Fitter {
         }
         double factor = 1;
         if (kind_ == Kind::rotation) factor = (dot < 0 ? -1 : 1) / std::sqrt(squared);
-        for (std::size_t c = 0; c < components(kind_); ++c)
-          if (!(std::abs(factor * mixed[c] - there.value[c][lane]) <= tolerance_[lane])) {
+        for (std::size_t c = 0; c < components(kind_); ++c) {
+          const double off = std::abs(factor * mixed[c] - there.value[c][lane]) / tolerance_[lane];
+          if (!(off <= 1)) {
             suspect_ = lane;
             return false;
           }
+          farthest = std::max(farthest, off);
+        }
       }
     }
     return true;
@@ -306,6 +330,7 @@ class Fitter {
   Kind kind_;
   const std::array<double, lane_count>& tolerance_;
   std::span<const double> knots_;
+  std::size_t looks_first_;  // at so many places
   Fitted fit_;
   std::size_t most_ = 0;
   bool given_up_ = false;
@@ -340,16 +365,18 @@ std::string too_fast(const ExactPose& exact, const CurveKnots& knots, std::size_
 Fitted fitted(const ExactPose& exact, const CurveKnots& knots, std::size_t group, Kind kind,
               const std::array<double, lane_count>& tolerance) {
   std::vector<double> all;
+  bool formulas = false;
   for (std::size_t node = group * lane_count; node < std::min(exact.nodes().size(), (group + 1) * lane_count); ++node) {
     const std::vector<double>& of_node = knots.of[static_cast<std::size_t>(kind)][node];
     all.insert(all.end(), of_node.begin(), of_node.end());
+    formulas = formulas || knots.formula[static_cast<std::size_t>(kind)][node] != 0;
   }
   std::ranges::sort(all);
   std::vector<double> times{0.0};
   for (const double time : all)
     if (time > times.back() + nearest_knots) times.push_back(time);
   if (exact.duration() > 0) times.push_back(exact.duration());
-  Fitter fitter(exact, group, kind, tolerance, all);
+  Fitter fitter(exact, group, kind, tolerance, all, formulas);
   if (times.size() == 1) {
     Fitted still{.kind = kind, .knots = times};
     const Look look = fitter.look(0, Side::out);
@@ -361,7 +388,7 @@ Fitted fitted(const ExactPose& exact, const CurveKnots& knots, std::size_t group
   // Whether few lines do is known soon. Else the cubics come first, and lines are tried as far as they would take less.
   const std::size_t most = most_more + most_for_each * times.size();
   const std::size_t soon = 4 * times.size();
-  Fitted lines = fitter.fit(times, false, soon);
+  Fitted lines = fitter.fit(times, false, soon, true);
   if (!lines.knots.empty()) {
     Fitted cubics = fitter.fit(times, true, lines.knots.size() / 2);
     return cubics.knots.empty() ? lines : cubics;

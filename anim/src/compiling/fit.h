@@ -18,6 +18,7 @@ struct CurveKnots {
 
   double look;                                         ///< that stretch, s
   std::array<std::vector<std::vector<double>>, 3> of;  ///< for each kind and node; s, in no order
+  std::array<std::vector<char>, 3> formula;            ///< for each kind and node: whether a formula moves it
 };
 
 /// A channel through the knots of its curves, and as many more as it takes for none of its numbers to be further off
