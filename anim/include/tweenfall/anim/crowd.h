@@ -20,7 +20,9 @@
 namespace tweenfall {
 
 struct CrowdSettings {
-  /// How far a point may be from its place on the exact path, in the space of the figure, m; > 0.
+  /// How far a point may be from its place on the exact path, in the space of the figure, m; > 0. In later rounds of a
+  /// loop with offset this holds while the figure is as large as in the first, and a kilometer or less from the origin:
+  /// joints below its root that move on from round to round make it larger, and errors with it.
   double tolerance = 1e-4;
   /// The points measured lie this far from each joint along each axis, m; >= 0. Choose the size of attached things.
   double arm = 0.1;
