@@ -304,6 +304,13 @@ void Stage::give(const Input& input) {
   std::visit(Giver{*this}, input);
 }
 
+void Stage::give(const TimedInput& input) {
+  const std::shared_ptr<Implementation> held = implementation_;
+  advance_to(input.time);
+  if (!held->abandoned) held->pass_blows(input.after_blows);
+  if (!held->abandoned) give(input.what);
+}
+
 void Stage::arm(Rule rule) {
   inside().command(staging::change::Arm{std::move(rule)});
 }

@@ -155,6 +155,22 @@ TEST_CASE("inputs are read with their settings, and written so that the same are
   CHECK(inputs_json(first.inputs()) == once);
 }
 
+TEST_CASE("inputs say after how many blows of their time they come") {
+  const StageDescription stage = walking();
+  const std::vector<TimedInput> inputs{{0.25, input::Push{"ball", Vec3(0, 1, 0), Vec3(0, 0, 0)}},
+                                       {0.25, input::Push{"ball", Vec3(0, 2, 0), Vec3(0, 0, 0)}, 3}};
+  const std::string written = inputs_json(inputs);
+  CHECK(written.find(R"({"at": 0.25, "after_blows": 3, "push": )") != std::string::npos);
+  const std::vector<TimedInput> read = parse_inputs(written, "i.json", stage);
+  REQUIRE(read.size() == 2);
+  CHECK(read[0].after_blows == 0);
+  CHECK(read[1].after_blows == 3);
+  CHECK_THROWS_WITH_AS(
+      (void)parse_inputs(R"({"tweenfall": 1, "inputs": [{"at": 0, "after_blows": 0.5, "release": {"body": "ball"}}]})",
+                         "i.json", stage),
+      doctest::Contains("i.json:1:54: error: expected a whole number from 0 to 1000000"), DocumentError);
+}
+
 TEST_CASE("whatever a program asks of a body is written so that the same is read, to the bit") {
   const StageDescription stage = walking();
   Random random(61);

@@ -61,6 +61,8 @@ class Reader {
     tell<input::Set>(usable(value, "set"), set_table());
     tell<input::Send>(usable(value, "send"), send_table());
     if (const json::Value control = usable(value, "control")) read_control(control);
+    if (const json::Value after = usable(value, "after_blows"); after && !inputs.empty())
+      inputs.back().after_blows = static_cast<int>(after.number());
   }
 
   std::vector<TimedInput> inputs;
@@ -249,7 +251,14 @@ struct InputGrammar {
 
   InputGrammar() {
     const ValueForms values(store);
-    std::vector<Field> fields{{"at", values.stage_time, "stage time", true}};
+    Form blows;
+    blows.kind = Form::Kind::number;
+    blows.what = "a whole number from 0 to 1000000";
+    blows.low = 0;
+    blows.high = 1'000'000;
+    blows.whole = true;
+    std::vector<Field> fields{{"at", values.stage_time, "stage time", true},
+                              {"after_blows", store.add(std::move(blows)), "of those at this very time"}};
     std::vector<std::string> names;
     const auto add = [&](const std::string& name, const auto& table, const std::string& help) {
       fields.push_back({name, store.add(table.listing_form(store, values)), help});

@@ -253,7 +253,9 @@ std::string inputs_json(std::span<const TimedInput> inputs) {
   std::string rows;
   for (const TimedInput& input : inputs) {
     const auto [word, said] = std::visit(document::inputs::OfInput{}, input.what);
-    rows += (rows.empty() ? "\n    " : ",\n    ") + std::string("{\"at\": ") + number_text(input.time) + ", " +
+    const std::string after =
+        input.after_blows > 0 ? "\"after_blows\": " + std::to_string(input.after_blows) + ", " : "";
+    rows += (rows.empty() ? "\n    " : ",\n    ") + std::string("{\"at\": ") + number_text(input.time) + ", " + after +
             document::inputs::string_text(word) + ": " + said + "}";
   }
   return "{\n  \"tweenfall\": 1,\n  \"inputs\": [" + rows + (rows.empty() ? "" : "\n  ") + "]\n}\n";

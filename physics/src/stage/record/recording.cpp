@@ -169,8 +169,7 @@ std::span<const TimedInput> advance_with(Stage& stage, std::span<const TimedInpu
     if (!(inputs[given].time >= stage.time()))
       throw std::invalid_argument("an input at " + number_text(inputs[given].time) + " s is before the stage's time, " +
                                   number_text(stage.time()) + " s");
-    stage.advance_to(inputs[given].time);
-    stage.give(inputs[given].what);
+    stage.give(inputs[given]);
   }
   stage.advance_to(until);
   return inputs.subspan(given);

@@ -15,7 +15,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-constexpr saving::Envelope stage_envelope{"stage", 7};
+constexpr saving::Envelope stage_envelope{"stage", 8};
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("a saved stage has a bad " + what);
@@ -179,7 +179,7 @@ std::vector<std::byte> Timeline::save() const {
   saving::ByteWriter out;
   const saving::Walk<saving::ByteWriter> visit(out);
   const std::uint64_t described = fingerprint(description);
-  visit(described, now_, between, commands_, happenings_);
+  visit(described, now_, between, commands_, happenings_, to_come_again_);
   visit.places(told_, of_piece_);
   visit(events, handoffs, state.time, state.since, state.at_once);
   each_moving_field(state, visit);
@@ -200,14 +200,14 @@ void Timeline::load(std::span<const std::byte> saved) {
   SavedInstant instant;
   bool between = false;
   std::vector<Command> commands;
-  std::vector<Happening> happenings;
+  std::vector<Happening> happenings, to_come_again;
   std::size_t told = 0, of_piece = 0;
   std::vector<StageEvent> past_events;
   std::vector<HandOff> past_handoffs;
   visit(described);
   if (described != fingerprint(description))
     throw std::invalid_argument("this saved stage has another description than the stage that would load it");
-  visit(now, between, commands, happenings);
+  visit(now, between, commands, happenings, to_come_again);
   visit.places(told, of_piece);
   visit(past_events, past_handoffs, instant.time, instant.since, instant.at_once);
   require(std::isfinite(now) && std::isfinite(instant.time) && now >= 0 && instant.time >= 0, "time");
@@ -236,10 +236,11 @@ void Timeline::load(std::span<const std::byte> saved) {
   state.joints = joints_of(joints, state);
   const std::size_t nodes = state.nodes->size();
   check_happenings(past_events, past_handoffs, nodes);
-  for (const Happening& happening : happenings) {
-    if (const auto* event = std::get_if<StageEvent>(&happening.what)) check_happenings({*event}, {}, nodes);
-    if (const auto* handoff = std::get_if<HandOff>(&happening.what)) check_happenings({}, {*handoff}, nodes);
-  }
+  for (const auto* list : {&happenings, &to_come_again})
+    for (const Happening& happening : *list) {
+      if (const auto* event = std::get_if<StageEvent>(&happening.what)) check_happenings({*event}, {}, nodes);
+      if (const auto* handoff = std::get_if<HandOff>(&happening.what)) check_happenings({}, {*handoff}, nodes);
+    }
 
   StageState ahead = state;
   std::optional<StageState> arrived;
@@ -258,6 +259,7 @@ void Timeline::load(std::span<const std::byte> saved) {
   arrived_ = std::move(arrived);
   commands_ = std::move(commands);
   happenings_ = std::move(happenings);
+  to_come_again_ = std::move(to_come_again);
   told_ = told;
   of_piece_ = of_piece;
   events = std::move(past_events);

@@ -40,6 +40,7 @@ void Timeline::keep_told() {
 
 void Timeline::next_piece() {
   keep_told();
+  std::erase_if(to_come_again_, [this](const Happening& each) { return each.time < to_.time; });
   from_ = to_;
   try {
     take(to_);
@@ -50,40 +51,6 @@ void Timeline::next_piece() {
     happenings_.resize(of_piece_);
     throw;
   }
-}
-
-void Timeline::tell(bool aloud, double until) {
-  struct Telling {
-    bool& flag;
-    const bool before = std::exchange(flag, true);
-    ~Telling() { flag = before; }
-  } guard{telling_};
-  while (!abandoned && told_ < happenings_.size() && happenings_[told_].time <= until) {
-    const Happening happening = happenings_[told_++];
-    now_ = std::max(now_, happening.time);
-    scene.forget();
-    // Copies of the callbacks, as they may replace themselves.
-    if (const auto* handoff = std::get_if<HandOff>(&happening.what)) {
-      handoffs.push_back(*handoff);
-      const auto callback = on_handoff;
-      if (aloud && callback) callback(*handoff);
-    } else {
-      const StageEvent& event = std::get<StageEvent>(happening.what);
-      events.push_back(event);
-      const auto callback = event.name == "contact" && !event.nodes.empty() ? on_contact : on_event;
-      if (aloud && callback) callback(event);
-    }
-  }
-}
-
-void Timeline::run_to(double target, bool aloud) {
-  for (;;) {
-    tell(aloud, target);
-    scene.forget();
-    if (abandoned || to_.time >= target) break;
-    next_piece();
-  }
-  now_ = std::max(now_, target);
 }
 
 namespace {
@@ -101,6 +68,58 @@ bool is_same(const Happening& a, const Happening& b) {
 }
 
 }  // namespace
+
+/// Whether the caller was told of it before, in a piece that came again.
+bool Timeline::was_told(const Happening& happening) {
+  const auto twin =
+      std::ranges::find_if(to_come_again_, [&](const Happening& each) { return is_same(each, happening); });
+  if (twin == to_come_again_.end()) return false;
+  to_come_again_.erase(twin);
+  return true;
+}
+
+void Timeline::tell(bool aloud, double until) {
+  struct Telling {
+    bool& flag;
+    const bool before = std::exchange(flag, true);
+    ~Telling() { flag = before; }
+  } guard{telling_};
+  while (!abandoned && told_ < happenings_.size() && happenings_[told_].time <= until) {
+    const Happening happening = happenings_[told_++];
+    now_ = std::max(now_, happening.time);
+    scene.forget();
+    const bool calls = !was_told(happening) && aloud;
+    // Copies of the callbacks, as they may replace themselves.
+    if (const auto* handoff = std::get_if<HandOff>(&happening.what)) {
+      handoffs.push_back(*handoff);
+      const auto callback = on_handoff;
+      if (calls && callback) callback(*handoff);
+    } else {
+      const StageEvent& event = std::get<StageEvent>(happening.what);
+      events.push_back(event);
+      const auto callback = event.name == "contact" && !event.nodes.empty() ? on_contact : on_event;
+      if (calls && callback) callback(event);
+    }
+  }
+}
+
+void Timeline::run_to(double target, bool aloud) {
+  for (;;) {
+    tell(aloud, target);
+    scene.forget();
+    if (abandoned || to_.time >= target) break;
+    next_piece();
+  }
+  now_ = std::max(now_, target);
+}
+
+void Timeline::pass_blows(int count) {
+  while (!abandoned && to_.time <= now_ && to_.at_once < count) {
+    next_piece();
+    tell(true, now_);
+  }
+  scene.forget();
+}
 
 /// Makes `to_` the state on which a change at `now` acts, and forgets its future.
 /// @return what the piece has told that still comes if it ends now; empty if that is all of it
@@ -135,7 +154,7 @@ std::optional<std::vector<Happening>> Timeline::reach_now() {
 }
 
 /// Of what the piece has told, leaves what still comes: a contact that frees a body from the beginning of the piece on,
-/// for example, may come no more.
+/// for example, may come no more. The rest is not told again if it comes after all.
 void Timeline::leave_told(std::vector<Happening> still_told) {
   const auto first = happenings_.begin() + static_cast<std::ptrdiff_t>(of_piece_),
              last = happenings_.begin() + static_cast<std::ptrdiff_t>(told_);
@@ -149,6 +168,10 @@ void Timeline::leave_told(std::vector<Happening> still_told) {
     else
       events.push_back(std::get<StageEvent>(each.what));
   }
+  std::vector<Happening> taken_back(first, last);
+  take_out_twins(taken_back, std::span<const Happening>(still_told), is_same);
+  to_come_again_.insert(to_come_again_.end(), std::make_move_iterator(taken_back.begin()),
+                        std::make_move_iterator(taken_back.end()));
   told_ = of_piece_ + still_told.size();
   happenings_.insert(happenings_.erase(first, last), std::make_move_iterator(still_told.begin()),
                      std::make_move_iterator(still_told.end()));
@@ -205,7 +228,7 @@ std::vector<TimedInput> Timeline::inputs() const {
   const auto name = [&](NodeId node) { return (*current().nodes)[node].name; };
   for (const Command& command : commands_) {
     if (command.time > now_) break;
-    const auto add = [&](Input what) { inputs.push_back({command.time, std::move(what)}); };
+    const auto add = [&](Input what) { inputs.push_back({command.time, std::move(what), command.at_once}); };
     if (const auto* ask = std::get_if<change::Ask>(&command.change)) add(input::Ask{ask->play, ask->action});
     if (const auto* tell = std::get_if<change::Tell>(&command.change)) {
       if (tell->value)
@@ -234,6 +257,7 @@ void Timeline::restart() {
   happenings_.clear();
   events.clear();
   handoffs.clear();
+  to_come_again_.clear();
   told_ = of_piece_ = 0;
   now_ = 0;
   next_piece();

@@ -17,6 +17,8 @@ class Timeline {
   /// @param aloud  whether callbacks are called
   void run_to(double target, bool aloud);
   void restart();
+  /// Goes on at `now` until so many of the blows that fall there have fallen, or no more come.
+  void pass_blows(int count);
   /// Makes a change at exactly `now`. If it throws, nothing has changed.
   void command(Change change);
 
@@ -50,6 +52,7 @@ class Timeline {
   void take(StageState& state, std::span<const Command> commands, std::vector<Happening>& happenings,
             std::optional<StageState>& arrived) const;
   void next_piece();
+  [[nodiscard]] bool was_told(const Happening& happening);
   void tell(bool aloud, double until);
   void keep_told();
   void put_in(std::vector<Happening> caused);
@@ -58,11 +61,12 @@ class Timeline {
 
   StageState initial_;
   StageState from_, to_;
-  std::optional<StageState> arrived_;  ///< `to_` before the caller's changes there
-  std::vector<Command> commands_;      ///< in order of time
-  std::vector<Happening> happenings_;  ///< not all reported yet
-  std::size_t told_ = 0;               ///< how many of them have been reported
-  std::size_t of_piece_ = 0;           ///< index of the first that belongs to the current piece
+  std::optional<StageState> arrived_;     ///< `to_` before the caller's changes there
+  std::vector<Command> commands_;         ///< in order of time
+  std::vector<Happening> happenings_;     ///< not all reported yet
+  std::size_t told_ = 0;                  ///< how many of them have been reported
+  std::size_t of_piece_ = 0;              ///< index of the first that belongs to the current piece
+  std::vector<Happening> to_come_again_;  ///< told, and taken back until their piece comes again
   double now_ = 0;
   bool telling_ = false;
 };

@@ -69,6 +69,9 @@ using Input = std::variant<input::Ask, input::Release, input::Recover, input::Ha
 struct TimedInput {
   double time = 0;  ///< stage time, s
   Input what;
+  /// Of the blows that fall at this time, each in its turn, how many come before it: what is asked for in a callback
+  /// may come between two of them.
+  int after_blows = 0;
 };
 
 }  // namespace tweenfall

@@ -190,10 +190,13 @@ class Stage {
 
   // Outside input as values
   /// Everything that was asked of plays, graphs, vehicles and bodies until now, impulses included, each with its time:
-  /// a stage of the same description that gets them at these times runs to the same bits.
+  /// a stage of the same description that gets them at these times runs to the same bits. Changes of the cast are no
+  /// input: nodes that come or go, joints, `ignore`, `collide` and rules that are armed. `save` keeps those, too.
   [[nodiscard]] std::vector<TimedInput> inputs() const;
   /// Gives one of these inputs, at exactly `time()`. @throws as the function that it stands for
   void give(const Input& input);
+  /// Advances to its time, and gives it then. @throws also as `advance_to`
+  void give(const TimedInput& input);
 
   // Changing the cast while it runs
   NodeId add(const NodeDescription& node);
@@ -208,6 +211,9 @@ class Stage {
   [[nodiscard]] bool collides(NodeId a, NodeId b) const;
 
   // What happened
+  // A callback may change the stage: this acts at `time()`. What it keeps from happening after all is taken back, and
+  // nothing is told twice. A body that is pressed, or struck through others, is freed at the beginning of a step: what
+  // the callback changes then comes just before that, so that an impulse on this body is lost.
   /// Called for all events but contacts, in order of time; within the callback, `time()` is the event's.
   void on_event(std::function<void(const StageEvent&)> callback);
   void on_contact(std::function<void(const StageEvent&)> callback);
