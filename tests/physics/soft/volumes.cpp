@@ -34,18 +34,19 @@ TEST_CASE("the energy of a cantilevered volume of constraints never grows, howev
   }
 }
 
-TEST_CASE("a cantilevered volume gains no energy by a single pass either, whatever its shape") {
+TEST_CASE("a cantilevered volume gains no energy by a pass or two either, whatever its shape") {
   const VolumeMaterial materials[] = {{.stiffness = 1e12, .bulk = 1e12}, {.stiffness = 1e8, .damping = 1e8}};
   const SoftBoxSettings boxes[] = {{.half_extents = {0.5, 0.1, 0.1}, .cells = {8, 2, 2}},
                                    {.half_extents = {0.5, 0.2, 0.2}, .cells = {6, 3, 3}},
                                    {.half_extents = {0.6, 0.05, 0.2}, .cells = {10, 1, 3}}};
   for (const VolumeMaterial& material : materials)
-    for (SoftBoxSettings box : boxes) {
+    for (int run = 0; run < 6; ++run) {
+      SoftBoxSettings box = boxes[run / 2];
       CAPTURE(material.stiffness);
       CAPTURE(box.cells[0]);
       box.material = material;
       SoftSettings bar = soft_box(box);
-      bar.iterations = 1;
+      bar.iterations = 1 + run % 2;
       for (std::uint32_t i = 0; i < bar.positions.size(); ++i)
         if (bar.positions[i].x() < 1e-3 - box.half_extents.x()) bar.pins.push_back({.node = i, .in_place = true});
       World world;

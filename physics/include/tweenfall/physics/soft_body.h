@@ -93,12 +93,12 @@ struct SoftSettings {
   std::optional<double> sub_step{};
   /// Passes over all constraints in a sub-step of h seconds, there and back, 1 to 1000; absent: 1, or the 2 to 4 that
   /// stiff edges, bends and volumes take. Springs do not read it. An edge acts with at most iterations m / h^2 newtons
-  /// per meter, where 1 / m is the sum of its ends' inverse masses, and is damped by at most iterations m / h; bends
-  /// and enclosures likewise. Where there are tetrahedra, these and edges act with at most a quarter of that and are
-  /// damped by a sixteenth, and by a single pass by a twentieth of both. `inspect` tells of what is stiffer. Only the
-  /// edges of ropes and other chains, solved all at once, are as stiff as they are made. What bears far more than its
-  /// own mass gives way by more than it should. What hangs with T newtons on nodes of mass m, its edges l long, falls
-  /// where a sub-step is longer than about sqrt(iterations l m / T); `inspect` tells.
+  /// per meter, where 1 / m is the sum of its ends' inverse masses; bends and enclosures likewise. Where there are
+  /// tetrahedra, these and edges act with at most a quarter of that, and edges are damped by at most iterations m / 16
+  /// h; by a single pass by a twentieth of m / h^2 and of m / h. `inspect` tells of what is stiffer. Only the edges of
+  /// ropes and other chains, solved all at once, are as stiff as they are made. What bears far more than its own mass
+  /// gives way by more than it should. What hangs with T newtons on nodes of mass m, its edges l long, falls where a
+  /// sub-step is longer than about sqrt(iterations l m / T); `inspect` tells.
   std::optional<int> iterations{};
   double radius = 0.01;       ///< of the nodes when they collide with bodies, m; > 0
   double friction = 0.5;      ///< with bodies: sqrt(f1 f2)

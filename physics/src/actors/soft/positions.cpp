@@ -4,10 +4,10 @@
 //   change of the multiplier = (-C - a multiplier) / (sum of w |gradient|^2 + a),  a = 1 / (k h^2)
 //
 // Sources: Macklin, Mueller, Chentanez, XPBD: Position-Based Simulation of Compliant Constrained Dynamics, 2016,
-// equations 18 and 26 (damping); Macklin, Storey, Lu, Terdiman, Chentanez, Jeschke, Mueller, Small Steps in Physics
-// Simulation, 2019; for rigid bodies Mueller, Macklin, Chentanez, Jeschke, Kim, Detailed Rigid Body Simulation with
-// Extended Position Based Dynamics, 2020; for chains Deul, Kugelstadt, Weiler, Bender, Direct Position-Based Solver for
-// Stiff Rods, 2018.
+// equations 18 and 26 (damping, here of chains); Macklin, Storey, Lu, Terdiman, Chentanez, Jeschke, Mueller, Small
+// Steps in Physics Simulation, 2019; for rigid bodies Mueller, Macklin, Chentanez, Jeschke, Kim, Detailed Rigid Body
+// Simulation with Extended Position Based Dynamics, 2020; for chains Deul, Kugelstadt, Weiler, Bender, Direct
+// Position-Based Solver for Stiff Rods, 2018.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -45,6 +45,7 @@ class Positions {
       body.velocities[i] = (p_[i] - x_[i]) / step_.h;
       x_[i] = p_[i];
     }
+    damp();
     hold_together();
     for (Held& held : step_.held) {
       if (held.partner != Held::nobody) continue;
@@ -127,6 +128,35 @@ class Positions {
     pull_[node] += by;
   }
 
+  /// Damping of edges that are passed over: each takes from the speed of its ends along it a part of what is left. So
+  /// it only ever takes energy, however hard it damps and however few the passes, as it would not among constraints.
+  void damp() {
+    if (!chains_.empty()) return;
+    std::vector<Vec3>& v = step_.body.velocities;
+    for (const Held& held : step_.held)
+      if (held.partner == Held::nobody) v[held.node] = held.velocity;
+    for (int i = 0; i < *made_.iterations; ++i) {
+      each(made_.edges.size(), step_.backward, [this](std::size_t k) { slow_edge(k); });
+      each(made_.edges.size(), !step_.backward, [this](std::size_t k) { slow_edge(k); });
+    }
+  }
+  void slow_edge(std::size_t i) {
+    const SoftEdge& edge = made_.edges[i];
+    if (!(edge.damping > 0) || step_.body.torn[i] != 0) return;
+    std::vector<Vec3>& v = step_.body.velocities;
+    const double weights = weight_[edge.a] + weight_[edge.b];
+    const Vec3 between = p_[edge.a] - p_[edge.b];
+    const double length = between.norm();
+    if (!(weights > 0) || !(length > 0)) return;
+    const Vec3 normal = between / length;
+    const double effect = resolved(step_.body, edge).damping * weights * step_.h / (2 * *made_.iterations);
+    const Vec3 push = -normal.dot(v[edge.a] - v[edge.b]) * effect / (1 + effect) / weights * normal;
+    v[edge.a] += weight_[edge.a] * push;
+    v[edge.b] -= weight_[edge.b] * push;
+    pull_[edge.a] += step_.h * push;
+    pull_[edge.b] -= step_.h * push;
+  }
+
   [[nodiscard]] double compliance(double stiffness) const { return 1 / (stiffness * step_.h * step_.h); }
 
   void meet_edge(std::size_t i) {
@@ -136,8 +166,8 @@ class Positions {
     const double length = between.norm();
     if (step_.body.torn[i] != 0 || !(weights > 0) || !(length > 0)) return;
     const Vec3 normal = between / length;
-    const auto [stiffness, damping] =
-        chains_.empty() ? resolved(step_.body, edge) : Resolved{edge.stiffness, edge.damping};
+    const double stiffness = chains_.empty() ? resolved(step_.body, edge).stiffness : edge.stiffness;
+    const double damping = chains_.empty() ? 0 : edge.damping;
     const double soft = compliance(stiffness), damped = damping / (stiffness * step_.h);
     const double drawn = normal.dot((p_[edge.a] - x_[edge.a]) - (p_[edge.b] - x_[edge.b]));
     double& multiplier = edge_multipliers_[i];

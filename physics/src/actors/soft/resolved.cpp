@@ -73,8 +73,9 @@ double resolved_stiffness(const SoftSettings& made, const SoftEdge& edge, double
 
 Resolved resolved(const SoftBody& body, const SoftEdge& edge) {
   const SoftSettings& made = *body.made;
-  return {resolved_stiffness(made, edge, body.pace),
-          std::min(edge.damping, resolved_share(made, damping_in_volume) / (give(made, edge) * body.pace))};
+  const double stiffness = resolved_stiffness(made, edge, body.pace);
+  if (made.tetrahedra.empty()) return {stiffness, edge.damping};
+  return {stiffness, std::min(edge.damping, resolved_share(made, damping_in_volume) / (give(made, edge) * body.pace))};
 }
 
 double resolved_stiffness(const SoftBody& body, const SoftBend& bend) {

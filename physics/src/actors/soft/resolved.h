@@ -7,7 +7,8 @@ namespace tweenfall::soft {
 // Passes over constraints, one after the other, resolve what the inertia of the nodes withstands in a sub-step. What
 // is stiffer or damped harder keeps a stretch that pulls no harder for it, but that its stiffness would count as
 // energy: 348 J of a cloth that weighs 2 N, 200 kJ of a bar of rubber. So edges, bends and volumes that are passed over
-// act with at most this stiffness, and edges with this times the sub-step as their damping.
+// act with at most this stiffness. Damping takes only energy, however hard it is; beside tetrahedra it is limited, too:
+// they answer what it changes.
 
 struct Resolved {
   double stiffness = 0;  ///< N/m
