@@ -144,15 +144,12 @@ TEST_CASE("what hangs at rest weighs on its rope as much as it weighs, whatever 
   }
 }
 
-// An Euler integrator displaces what falls by none or all of what it gains in a step, and not by half of it.
-TEST_CASE("by the Euler integrators what has drag weighs on its rope with an error of first order") {
-  struct Way {
-    Integrator integrator;
-    double sign;
-  };
-  for (const auto& [integrator, sign] : {Way{Integrator::explicit_euler, -1}, Way{Integrator::semi_implicit_euler, 1},
-                                         Way{Integrator::backward_euler, 1}}) {
+// Explicit Euler displaces what falls by none of what it gains in a step; the others by all of it, as sub-steps do.
+TEST_CASE("by explicit Euler what has drag weighs too little on its rope by an error of first order, else as it does") {
+  for (const Integrator integrator :
+       {Integrator::explicit_euler, Integrator::semi_implicit_euler, Integrator::backward_euler}) {
     CAPTURE(static_cast<int>(integrator));
+    const bool is_explicit = integrator == Integrator::explicit_euler;
     std::vector<double> off;
     for (const double rate : {240.0, 480.0, 960.0}) {
       CAPTURE(rate);
@@ -169,10 +166,11 @@ TEST_CASE("by the Euler integrators what has drag weighs on its rope with an err
       step(world, 2, 1 / rate);
       const double slowed = (20 + 30.0 / 2) / rate;
       off.push_back(soft_pins(world, id)[1].force.y() - 2 * 9.81);
-      CHECK(off.back() == doctest::Approx(sign * 2 * 9.81 * slowed / (2 + slowed)).epsilon(1e-3));
+      CHECK(std::abs(off.back() + (is_explicit ? 2 * 9.81 * slowed / (1 + slowed) : 0)) < 1e-3);
     }
-    CHECK(off[0] / off[1] == doctest::Approx(2).epsilon(0.05));
-    CHECK(off[1] / off[2] == doctest::Approx(2).epsilon(0.05));
+    if (!is_explicit) continue;
+    CHECK(off[0] / off[1] == doctest::Approx(2).epsilon(0.1));
+    CHECK(off[1] / off[2] == doctest::Approx(2).epsilon(0.1));
   }
 }
 
@@ -265,10 +263,10 @@ TEST_CASE("a cloth lies on a slope that is less steep than its friction, and sli
     }
 }
 
-TEST_CASE("two bodies that land on a rope of springs give it no energy in the first sixty steps of 1/240 s and less") {
-  for (const double stiffness : {1e3, 1e5})
+TEST_CASE("two bodies that land on a rope of springs give it no energy, however stiff it is and long the steps") {
+  for (const double stiffness : {1e3, 1e5, 1e7})
     for (const double speed : {0.0, 1.0})
-      for (const double dt : {1.0 / 240, 1.0 / 960}) {
+      for (const double dt : {1.0 / 60, 1.0 / 240, 1.0 / 960}) {
         CAPTURE(stiffness);
         CAPTURE(speed);
         CAPTURE(dt);
@@ -294,7 +292,7 @@ TEST_CASE("two bodies that land on a rope of springs give it no energy in the fi
         for (int n = 0; n < 60; ++n) {
           world.step(dt);
           const double now = total();
-          REQUIRE(now <= before + 1e-9);
+          REQUIRE(now <= before + 1e-6);  // .019 J where the bodies do not stay beside the nodes that they press
           before = now;
         }
       }

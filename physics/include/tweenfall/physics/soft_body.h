@@ -220,9 +220,9 @@ void unpin(World& world, SoftId soft, std::uint32_t node);  ///< the node keeps 
 void lead_pin(World& world, SoftId soft, std::uint32_t node, const Vec3& point, const Vec3& velocity);
 struct SoftPinReading {
   SoftPin pin;
-  /// By the node on what holds it, mean over the last step, N. Where the world goes by an Euler integrator this is of
-  /// first order: what hangs at rest under a drag of c per second weighs c dt / (2 + c dt) of its weight too little by
-  /// the explicit, too much by the two others. By all other integrators it weighs what it weighs.
+  /// By the node on what holds it, mean over the last step, N. Where the world goes by explicit Euler this is of
+  /// first order: what hangs at rest under a drag of c per second weighs c dt / (1 + c dt) of its weight too little.
+  /// By all other integrators it weighs what it weighs.
   Vec3 force{0, 0, 0};
 };
 [[nodiscard]] std::vector<SoftPinReading> soft_pins(const World& world, SoftId soft);  ///< by node

@@ -290,7 +290,7 @@ void World::Implementation::advance_softs(double dt, double whole) {
     for (std::size_t k = 0; k < courses.size(); ++k) courses[k].end(since, h, std::ranges::binary_search(among, k));
     partners.accept(h);
   }
-  partners.finish(h);
+  partners.finish();
   for (soft::Course& course : courses) course.finish();
 }
 

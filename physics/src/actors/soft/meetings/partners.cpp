@@ -141,7 +141,6 @@ std::uint32_t Partners::number_of(std::uint32_t index) {
       const Vec3 gain = partner.end.twist.linear - partner.start.twist.linear;
       const double ahead = off.dot(gain) / gain.squaredNorm();
       partner.along_parabola = std::abs(ahead) <= little * dt_ && (off - ahead * gain).norm() <= 1e-9 + 0.01 * gained;
-      if (partner.along_parabola) partner.ahead = ahead;
     }
   }
   partner.now = partner.start;
@@ -188,7 +187,7 @@ void Partners::accept(double h) {
   }
 }
 
-void Partners::finish(double h) {
+void Partners::finish() {
   for (const Partner& partner : all_) {
     if (partner.taken == Vec3::Zero()) continue;
     state::Body& body = bodies_[partner.body];
@@ -196,11 +195,12 @@ void Partners::finish(double h) {
       if (body.immovable()) body.extra.own().reaction += partner.taken;
       continue;
     }
-    // As for what moves freely, half of the last sub-step's gain belongs to the time before it.
-    body.center = partner.end.center + partner.shift + (partner.ahead - 0.5 * h) * partner.push;
+    // It stays where the last sub-step left it, beside the nodes that it touched: farther on, it would be in them, and
+    // be lifted out.
+    body.center = partner.now.center;
     body.twist.linear += partner.push;
     body.twist.angular += partner.spin;
-    Quat rotation = exp_map(partner.turn - 0.5 * h * partner.spin) * partner.end.rotation;
+    Quat rotation = partner.now.rotation;
     rotation.normalize();
     body.follow_center(rotation);
     body.asleep = false;

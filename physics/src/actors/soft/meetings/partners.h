@@ -24,7 +24,6 @@ struct Partner {
   Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  ///< world axes
   Place start, end;                                             ///< of the step
   bool along_parabola = false;  ///< its velocities belong to its displacement: no blow has changed them
-  double ahead = 0;  ///< s; times the velocity it has gained, by how much its integrator puts it farther than that
   // Off its course so far
   Vec3 shift{0, 0, 0}, turn{0, 0, 0};  ///< m, rad
   Vec3 push{0, 0, 0}, spin{0, 0, 0};   ///< m/s, rad/s
@@ -85,8 +84,8 @@ class Partners {
   void take_back(const std::vector<Gift>& gifts);
   /// Applies what the bodies were given in the sub-step.
   void accept(double h);
-  /// Writes the results to the bodies, and wakes them. @param h  of a sub-step
-  void finish(double h);
+  /// Writes the results to the bodies, and wakes them.
+  void finish();
 
  private:
   std::vector<state::Body>& bodies_;
