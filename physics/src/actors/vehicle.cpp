@@ -21,6 +21,8 @@ namespace {
 
 /// Below this rolling speed, slip is relative to it, m/s.
 constexpr double slow = 1e-3;
+/// From this share of a strut's speed on that its force would take in a step, forces are those at the step's end.
+constexpr double firm = 0.5;
 constexpr double most = 1e30;
 
 void require(bool holds, const std::string& what) {
@@ -42,14 +44,22 @@ Vec3 velocity_at(const Motion& motion, const Vec3& point) {
   return motion.twist.linear + motion.twist.angular.cross(point - motion.pose.position);
 }
 
-/// By how much a unit impulse along a unit direction changes the velocity of a point along it, 1/kg.
-double give_of(const World& world, BodyId body, const Vec3& point, const Vec3& direction) {
+/// A unit direction at a point.
+struct Line {
+  Vec3 point, direction;
+};
+
+/// By how much a unit impulse along one line changes the velocity along another, 1/kg.
+double give_of(const World& world, BodyId body, const Line& impulse, const Line& velocity) {
   if (world.is_fixed(body) || world.owner(body) == Owner::keyed) return 0;
   const MassProperties& mass = world.mass(body);
   const Pose pose = world.motion(body).pose;
-  const Vec3 arm = pose.rotation.conjugate() * (point - pose.position) - mass.center;
-  const Vec3 lever = arm.cross(pose.rotation.conjugate() * direction);
-  return 1 / mass.mass + lever.dot(mass.inertia.inverse() * lever);
+  const auto lever = [&](const Line& line) -> Vec3 {
+    const Vec3 arm = pose.rotation.conjugate() * (line.point - pose.position) - mass.center;
+    return arm.cross(pose.rotation.conjugate() * line.direction);
+  };
+  return impulse.direction.dot(velocity.direction) / mass.mass +
+         lever(velocity).dot(mass.inertia.inverse() * lever(impulse));
 }
 
 /// Moves a value toward 0 by at most `by`.
@@ -66,6 +76,7 @@ struct Vehicle::Stand {
   Vec3 point{0, 0, 0}, normal{0, 1, 0};
   double length = 0, load = 0;
   Vec3 along{1, 0, 0}, across{0, 0, 1};    ///< the wheel's heading in the ground, and to its left
+  double rising = 0;                       ///< speed of the chassis against the ground along the normal, m/s
   double speed = 0, drift = 0;             ///< relative to the ground, along and across, m/s
   double give_along = 0, give_across = 0;  ///< by how much a unit impulse there changes them, 1/kg
 };
@@ -151,12 +162,54 @@ Vehicle::Stand Vehicle::find_stand(const World& world, const Motion& chassis, st
   stand.speed = velocity.dot(stand.along);
   stand.drift = velocity.dot(stand.across);
   const auto give = [&](const Vec3& direction) {
-    return vehicles::give_of(world, settings_.chassis, stand.point, direction) +
-           vehicles::give_of(world, stand.ground, stand.point, direction);
+    const vehicles::Line line{stand.point, direction};
+    return vehicles::give_of(world, settings_.chassis, line, line) + vehicles::give_of(world, stand.ground, line, line);
   };
+  stand.rising = velocity.dot(stand.normal);
   stand.give_along = give(stand.along);
   stand.give_across = give(stand.across);
   return stand;
+}
+
+/// The forces of struts so stiff for the step that those of its start would throw the chassis off: k x - c v with the
+/// compression and the speed that they all leave at its end. At rest that changes nothing.
+/// Source: backward Euler, Hairer and Wanner, Solving Ordinary Differential Equations II, 1996, IV.3.
+void Vehicle::press_at_end(const World& world, std::vector<Stand>& stands, double dt) const {
+  const auto line_of = [&](std::size_t i) { return vehicles::Line{stands[i].point, stands[i].normal}; };
+  const auto give = [&](std::size_t from, std::size_t to) {
+    const double own = vehicles::give_of(world, settings_.chassis, line_of(from), line_of(to));
+    return from == to ? own + vehicles::give_of(world, stands[to].ground, line_of(to), line_of(to)) : own;
+  };
+  const auto firmness = [&](std::size_t i) { return settings_.wheels[i].damping + dt * settings_.wheels[i].stiffness; };
+  std::vector<std::size_t> pressing;
+  for (std::size_t i = 0; i < stands.size(); ++i)
+    if (stands[i].touches) pressing.push_back(i);
+  if (std::ranges::none_of(pressing, [&](std::size_t i) { return dt * firmness(i) * give(i, i) > vehicles::firm; }))
+    return;
+  const bool falls = !world.is_fixed(settings_.chassis) && world.owner(settings_.chassis) != Owner::keyed;
+  while (!pressing.empty()) {
+    const auto count = static_cast<Eigen::Index>(pressing.size());
+    Eigen::MatrixXd effects(count, count);
+    Eigen::VectorXd loads(count);
+    for (Eigen::Index r = 0; r < count; ++r) {
+      const std::size_t i = pressing[static_cast<std::size_t>(r)];
+      const WheelSettings& its = settings_.wheels[i];
+      const double fallen = falls ? dt * settings_.gravity.dot(stands[i].normal) : 0;
+      loads[r] = its.stiffness * (its.rest_length - stands[i].length) - its.damping * stands[i].rising -
+                 dt * its.stiffness * stands[i].rising - firmness(i) * fallen;
+      for (Eigen::Index c = 0; c < count; ++c)
+        effects(r, c) = (r == c ? 1 : 0) + dt * firmness(i) * give(pressing[static_cast<std::size_t>(c)], i);
+    }
+    loads = effects.partialPivLu().solve(loads).eval();
+    Eigen::Index least = 0;
+    if (loads.minCoeff(&least) > 0) {
+      for (Eigen::Index r = 0; r < count; ++r) stands[pressing[static_cast<std::size_t>(r)]].load = loads[r];
+      return;
+    }
+    // A strut does not pull.
+    stands[pressing[static_cast<std::size_t>(least)]].touches = false;
+    pressing.erase(pressing.begin() + least);
+  }
 }
 
 /// The tire's force, and the wheel's spin.
@@ -215,11 +268,10 @@ void Vehicle::act(World& world, double dt) {
   const Motion chassis = world.motion(settings_.chassis);
   std::vector<Stand> stands;
   stands.reserve(readings_.size());
+  for (std::size_t i = 0; i < readings_.size(); ++i) stands.push_back(find_stand(world, chassis, i));
+  press_at_end(world, stands, dt);
   double loads = 0;
-  for (std::size_t i = 0; i < readings_.size(); ++i) {
-    stands.push_back(find_stand(world, chassis, i));
-    loads += stands.back().touches ? stands.back().load : 0;
-  }
+  for (const Stand& stand : stands) loads += stand.touches ? stand.load : 0;
   for (std::size_t i = 0; i < readings_.size(); ++i) {
     const Stand& stand = stands[i];
     WheelReading& reading = readings_[i];

@@ -66,6 +66,38 @@ TEST_CASE("a car stands on its springs, each wheel with its share, and stays whe
   CHECK((car.motion().pose.position - before).norm() < 2e-3);
 }
 
+TEST_CASE("struts far too stiff for the step, or for a light chassis, carry it where their springs say") {
+  struct Case {
+    double mass, stiffness, damping, above;  ///< above where it rests, m
+  };
+  for (const Case& its :
+       {Case{3, 30'000, 3'000, 0.02}, Case{10, 30'000, 3'000, 0.02}, Case{20, 30'000, 3'000, 0.02},
+        Case{1000, 1e7, 3'000, 0}, Case{1000, 1e9, 3'000, 0}, Case{1000, 1e12, 0, 0}, Case{1000, 1e9, 1e9, 0.02}}) {
+    CAPTURE(its.mass);
+    CAPTURE(its.stiffness);
+    World world({.sleep_after = std::numeric_limits<double>::infinity()});
+    world.add({.shape = {Plane{}}, .fixed = true});
+    const double rest = 0.6 - its.mass * g / 4 / its.stiffness;
+    const BodyId chassis = world.add({.shape = {Box{Vec3(1.6, 0.1, 0.7)}},
+                                      .mass = its.mass,
+                                      .motion = {.pose = {.position = Vec3(0, rest + its.above, 0)}}});
+    VehicleSettings settings{.chassis = chassis, .wheels = {}};
+    for (const double x : {1.3, -1.3})
+      for (const double z : {-0.7, 0.7})
+        settings.wheels.push_back({.mount = Vec3(x, 0, z), .stiffness = its.stiffness, .damping = its.damping});
+    Vehicle car(settings);
+    double highest = 0;
+    for (int i = 0; i < 5 * 240; ++i) {
+      car.act(world, dt);
+      world.step(dt);
+      highest = std::max(highest, world.motion(chassis).pose.position.y());
+    }
+    CHECK(highest < rest + its.above + 1e-6);
+    CHECK(near(world.motion(chassis).pose.position.y(), rest, 1e-4));
+    CHECK(world.motion(chassis).twist.linear.norm() < 1e-4);
+  }
+}
+
 TEST_CASE("locked wheels stop a car in v^2 / (2 mu g), rolling ones hardly at all") {
   for (const double speed : {10.0, 25.0}) {
     Car car = car_on(0);

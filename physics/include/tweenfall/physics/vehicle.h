@@ -83,6 +83,7 @@ class Vehicle {
  private:
   struct Stand;
   [[nodiscard]] Stand find_stand(const World& world, const Motion& chassis, std::size_t wheel) const;
+  void press_at_end(const World& world, std::vector<Stand>& stands, double dt) const;
   [[nodiscard]] Vec3 grip(const Stand& stand, double share, double borne, std::size_t wheel, double dt);
 
   VehicleSettings settings_;
