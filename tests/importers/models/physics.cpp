@@ -301,6 +301,7 @@ TEST_CASE("what a recording ran with runs the same out of its glTF") {
     "joints": {"pin": {"hinge": {"axis": "z", "limits": [-60, 80]}, "between": "rod", "at": [0, 2, 0]},
                "link": {"ball": {}, "between": ["rod", "ball"], "at": [0.8, 2, 0]}}},
     "nodes": {"floor": {"body": {"shape": {"plane": {"normal": [0, 1, 0]}}, "static": true}},
+      "shelf": {"position": [3, 1, 0], "body": {"shape": {"box": {"size": [1, 0.1, 1]}}, "static": true}},
       "rod": {"position": [0.4, 2, 0], "body": {"shape": {"box": {"size": [0.8, 0.1, 0.1]}}, "mass": 2}},
       "ball": {"position": [1.2, 2, 0], "body": {"shape": {"sphere": {"radius": 0.15}}, "mass": 1}}}})";
   const Document document = Document::parse(text, "chain.json", folder.path());
@@ -310,6 +311,14 @@ TEST_CASE("what a recording ran with runs the same out of its glTF") {
   const Document again =
       Document::read(folder.file("again.json", R"({"tweenfall": 1, "import": {"c": "chain.glb"}, "play": []})"));
   CHECK(again.stage().joints.size() == 2);
+  // Though the recording has keys for them, too.
+  for (const char* name : {"c/floor", "c/shelf"}) {
+    CAPTURE(name);
+    const auto still =
+        std::ranges::find_if(again.stage().nodes, [&](const NodeDescription& node) { return node.name == name; });
+    REQUIRE((still != again.stage().nodes.end() && still->body));
+    CHECK(still->body->fixed);
+  }
   Stage second(again.stage());
   stage.seek(0.3);
   second.seek(0.3);

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <span>
 
 namespace tweenfall::gltf {
 
@@ -115,12 +116,35 @@ void tell_of_textures(const Fields& root) {
                                                              "materials show their base color factor alone"));
 }
 
+/// Whether a track only holds its node where it is: many programs write such tracks for nodes that never move.
+bool holds_still(const Track& track, const Pose& rest) {
+  constexpr double rounding = 1e-6;  // of single precision
+  const auto stays = [](const auto& curve, const auto& is_rest) {
+    const std::span<const double> knots = curve.knots();
+    if (knots.empty()) return is_rest(curve.value(0));
+    for (std::size_t i = 0; i < knots.size(); ++i)
+      for (const double part : {0.0, 0.25, 0.5, 0.75})
+        if (!is_rest(curve.value(knots[i] + part * (i + 1 < knots.size() ? knots[i + 1] - knots[i] : 0)))) return false;
+    return true;
+  };
+  if (const auto* turn = std::get_if<Curve<Quat>>(&track.curve))
+    return stays(*turn, [&](const Quat& at) { return at.angularDistance(rest.rotation) < rounding; });
+  const auto* vector = std::get_if<Curve<Vec3>>(&track.curve);
+  const Vec3& own = track.property == "scale" ? rest.scale : rest.position;
+  return vector && stays(*vector, [&](const Vec3& at) { return (at - own).norm() < rounding * (1 + own.norm()); });
+}
+
 /// By node: whether a clip moves it or an ancestor.
 std::vector<char> moved_by(const std::vector<Clip>& clips, const std::vector<FileNode>& nodes) {
+  std::map<std::string_view, const Pose*> rests;
+  for (const FileNode& node : nodes) rests.emplace(node.node.name, &node.node.rest);
   std::set<std::string_view> names;
   for (const Clip& clip : clips)
-    for (const Track& track : clip.tracks)
-      if (track.property != "weights") names.insert(track.node);
+    for (const Track& track : clip.tracks) {
+      const auto rest = rests.find(track.node);
+      if (track.property == "weights" || (rest != rests.end() && holds_still(track, *rest->second))) continue;
+      names.insert(track.node);
+    }
   std::vector<char> moved(nodes.size(), 0);
   for (const std::size_t i : parents_first(nodes)) {
     const std::size_t parent = nodes[i].node.parent;
