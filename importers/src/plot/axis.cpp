@@ -40,15 +40,19 @@ std::vector<double> ticks(const Axis& axis, int count) {
   // Below this the powers of ten are not exact enough, or zero.
   if (!(rough > 1e-290) || !std::isfinite(rough)) return {};
   const double power = power_of_ten_below(rough);
-  double step = 10 * power;
-  for (const double factor : {5.0, 2.0, 1.0})
-    if (factor * power >= rough) step = factor * power;
-  const double first = std::ceil(axis.low / step - 1e-9);
-  // Ticks that cannot be distinguished are useless.
-  if (!(std::abs(first) < 1e15)) return {};
+  constexpr double factors[] = {0.5, 1, 2, 5, 10};
+  std::size_t number = 1;
+  while (number + 1 < std::size(factors) && factors[number] * power < rough) ++number;
   std::vector<double> values;
-  for (double k = first; k * step <= axis.high + 1e-9 * step && values.size() < 100; ++k) values.push_back(k * step);
-  return values;
+  // One level alone does not tell how much anything is.
+  for (;; --number) {
+    const double step = factors[number] * power, first = std::ceil(axis.low / step - 1e-9);
+    // Ticks that cannot be distinguished are useless.
+    if (!(std::abs(first) < 1e15)) return {};
+    values.clear();
+    for (double k = first; k * step <= axis.high + 1e-9 * step && values.size() < 100; ++k) values.push_back(k * step);
+    if (values.size() > 1 || number == 0) return values;
+  }
 }
 
 std::vector<std::string> tick_texts(const std::vector<double>& ticks) {

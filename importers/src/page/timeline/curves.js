@@ -134,7 +134,11 @@ class Curves {
   }
 
   drawLevels(context, panel, left, right, top, bottom, y) {
-    const step = niceStep(panel.high - panel.low, Math.max(2, (bottom - top) / 30)), digits = Math.min(6, decimalsOf(step));
+    const levels = step => Math.floor(panel.high / step) - Math.ceil(panel.low / step) + 1;
+    let count = Math.max(2, (bottom - top) / 30), step = niceStep(panel.high - panel.low, count);
+    // One level alone does not tell how much anything is.
+    for (; levels(step) < 2 && count < 16; count *= 1.5) step = niceStep(panel.high - panel.low, count);
+    const digits = Math.min(6, decimalsOf(step));
     context.font = font(10);
     context.textAlign = "right";
     for (let k = Math.ceil(panel.low / step); k * step <= panel.high; ++k) {
