@@ -125,6 +125,30 @@ TEST_CASE("a reported blow is none of the weight that presses on, wherever in a 
       }
 }
 
+TEST_CASE("what rests from the start strikes nothing, whatever its shape; what falls a hair does") {
+  for (const double gap : {0.0, 1e-8, 1e-4})
+    for (const Solid& solid : {Solid{Box{Vec3(0.5, 0.5, 0.5)}}, Solid{Sphere{0.5}}, Solid{Cylinder{0.5, 0.5}}}) {
+      CAPTURE(gap);
+      CAPTURE(solid.index());
+      StageDescription stage;
+      stage.nodes = {{.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}}};
+      for (const double x : {0.0, 3.0})
+        stage.nodes.push_back({.name = "at" + std::to_string(static_cast<int>(x)),
+                               .rest = {.position = {x, 0.5 + gap, 0}},
+                               .body = BodyDescription{.shape = {solid}, .mass = 1.0}});
+      // Another on top: weight that is passed on.
+      stage.nodes.push_back({.name = "top",
+                             .rest = {.position = {3, 1.5 + gap, 0}},
+                             .body = BodyDescription{.shape = {solid}, .mass = 1.0}});
+      Stage run(stage);
+      run.seek(0.2);
+      if (gap == 0)
+        CHECK(run.events().empty());
+      else
+        CHECK(greatest_contact(run) >= 0.99 * std::sqrt(2 * 9.81 * gap));
+    }
+}
+
 TEST_CASE("a body struck on a curved path leaves it where it is struck, with the curve's own velocity") {
   for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
     for (int i = 0; i < 40; ++i) {

@@ -169,7 +169,9 @@ double part_of_blow(const StageState& state, const Contact& contact, const std::
     const Twist twist = world.twist(body);
     return Twist{-twist.linear, -twist.angular};
   });
-  if (parting > parts * contact.approach_speed) return 1;
+  // What lay there from the start was not met; rounding parts it all the same.
+  const double least = contact.approach_speed > 0 ? contact.approach_speed : faster_than_weight(state) * dt;
+  if (parting > parts * least) return 1;
   const auto falls = [&](BodyId body) {
     const std::uint32_t own = contact.impulse > 0 ? 1 : 0;
     return world.owner(body) == Owner::free && !world.is_fixed(body) && state.presses[body.index] == own;
@@ -178,7 +180,8 @@ double part_of_blow(const StageState& state, const Contact& contact, const std::
       (falls(contact.b) ? state.gravity : Vec3(0, 0, 0)) - (falls(contact.a) ? state.gravity : Vec3(0, 0, 0));
   const double unhindered = closing_speed(world, contact, [&](BodyId body) { return before[body.index]; }) -
                             contact.manifold.normal.dot(apart) * dt;
-  if (!(contact.approach_speed > 0) && unhindered > faster_than_weight(state) * dt) return 1;  // swung in along an arc
+  if (!(contact.approach_speed > 0))
+    return unhindered > faster_than_weight(state) * dt ? 1 : 0;  // swung in along an arc, or rests
   return unhindered > contact.approach_speed ? contact.approach_speed / unhindered : 1;
 }
 
