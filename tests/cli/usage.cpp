@@ -101,7 +101,7 @@ TEST_CASE("wrong usage ends with 2, says what was probably meant, and prints no 
            {"run ball.json --threads 257", "--threads"},
            {"run ball.json --until 1e9", "million frames"},
            {"run ball.json --until 1e8 --fps 0.001", "2.4e+10 steps"},
-           {"run ball.json --until 30 --fps 50000", "million frames"},
+           {"run ball.json --until 30 --fps 50000", "million frames; give --fps 33333 or less"},
            {"run ball.json --until 600 --fps 1000 --limit 10", "MB of recording, above 10"},
            {"view ball.json --limit 0", "--limit must be above 0"},
            {"run ball.json -o moving.png", ".html"},

@@ -13,9 +13,12 @@ void require_frames(double fps, double until) {
   if (!(fps > 0) || fps > most_fps)
     throw UsageError("--fps must be above 0 and at most " + brief_text(most_fps) + ", not " + brief_text(fps));
   if (!(until >= 0)) throw UsageError("--until must be 0 or later, not " + brief_text(until));
-  if (until * fps > most_frames)
+  if (until * fps > most_frames) {
+    const double enough = most_frames / until;
     throw UsageError(brief_text(until) + " s at " + brief_text(fps) +
-                     " frames per second are more than a million frames");
+                     " frames per second are more than a million frames; give --fps " +
+                     brief_text(enough < 1 ? enough : std::floor(enough)) + " or less");
+  }
 }
 
 std::vector<double> frame_times(double until, double fps) {
