@@ -341,3 +341,16 @@ TEST_CASE("weights of a blend that fall to zero are noted where they stand") {
         "/graphs/g/poses/p/blend)\n");
   CHECK(blend("[[\"w\", [[0, 1], [1, 0.1]]]]").empty());
 }
+
+TEST_CASE("a formula without a value somewhere in its first second is noted, with the first such time") {
+  const auto noted = [](const std::string& expression) {
+    return notes_of(
+        "{\"tweenfall\": 1, \"clips\": {\"c\": {\"duration\": 2, \"tracks\": {\"lamp.energy\": {\"expression\": \"" +
+        expression + "\"}}}}}");
+  };
+  CHECK(has(noted("sqrt(-1-t)"), "no finite value at 0 s; where it has none, it is 0"));
+  CHECK(has(noted("1/(t-1)"), "no finite value at 1 s"));
+  CHECK(has(noted("exp(1000*t)"), "no finite value at 0.75 s"));
+  CHECK(noted("1/(t+1)").empty());
+  CHECK(noted("sqrt(t)").empty());
+}

@@ -243,7 +243,10 @@ Rows kinds() {
           kind<WheelJoint>("wheel", wheel_table(), "turns about an axis and springs along another", {"suspension"}),
           kind<PulleyJoint>("pulley", pulley_table(), "a rope over two pulleys", {}),
           kind<GearJoint>("gear", gear_table(), "two that turn on hinges of their own", {"gears", "cogs"}),
-          kind<SpringJoint>("spring", spring_joint_table(), "a damped spring of any stiffness", {})};
+          kind<SpringJoint>("spring", spring_joint_table(),
+                            "a damped spring of any stiffness; a stiff one loses some of its swing to the step, which "
+                            "a spring among the forces keeps",
+                            {})};
 }
 
 }  // namespace tweenfall::document::joints

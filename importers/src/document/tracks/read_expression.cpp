@@ -2,9 +2,11 @@
 
 #include <tweenfall/curves/expression.h>
 #include <tweenfall/curves/functions.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "document/read/values.h"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -36,7 +38,9 @@ class ExpressionReader {
     if (value.is(Kind::number)) return Curve<double>(value.number());
     if (!value.is(Kind::text)) return {};
     try {
-      return expression_curve(Expression(value.text(), parameters_));
+      const Expression expression(value.text(), parameters_);
+      note_gap(value, expression);
+      return expression_curve(expression);
     } catch (const ExpressionError& error) {
       add_fault_of_expression(value, error, problems_);
       return {};
@@ -44,6 +48,17 @@ class ExpressionReader {
   }
 
  private:
+  /// Tells of the first instant of the first second at which a formula has no value.
+  void note_gap(const json::Value& text, const Expression& expression) {
+    constexpr int looks = 16;
+    for (int i = 0; i <= looks; ++i) {
+      const double time = static_cast<double>(i) / looks;
+      if (std::isfinite(expression.sample(time).value)) continue;
+      problems_.note(text, "this has no finite value at " + brief_text(time) + " s; where it has none, it is 0");
+      return;
+    }
+  }
+
   Problems& problems_;
   std::vector<Expression::Parameter> parameters_;
 };
