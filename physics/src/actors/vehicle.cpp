@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "forces/integrators/elimination.h"
 #include "state/countable.h"
 
 namespace tweenfall {
@@ -188,22 +189,20 @@ void Vehicle::press_at_end(const World& world, std::vector<Stand>& stands, doubl
     return;
   const bool falls = !world.is_fixed(settings_.chassis) && world.owner(settings_.chassis) != Owner::keyed;
   while (!pressing.empty()) {
-    const auto count = static_cast<Eigen::Index>(pressing.size());
-    Eigen::MatrixXd effects(count, count);
-    Eigen::VectorXd loads(count);
-    for (Eigen::Index r = 0; r < count; ++r) {
-      const std::size_t i = pressing[static_cast<std::size_t>(r)];
+    forces::Elimination effects;
+    std::vector<double> loads;
+    for (const std::size_t i : pressing) {
       const WheelSettings& its = settings_.wheels[i];
       const double fallen = falls ? dt * settings_.gravity.dot(stands[i].normal) : 0;
-      loads[r] = its.stiffness * (its.rest_length - stands[i].length) - its.damping * stands[i].rising -
-                 dt * its.stiffness * stands[i].rising - firmness(i) * fallen;
-      for (Eigen::Index c = 0; c < count; ++c)
-        effects(r, c) = (r == c ? 1 : 0) + dt * firmness(i) * give(pressing[static_cast<std::size_t>(c)], i);
+      loads.push_back(its.stiffness * (its.rest_length - stands[i].length) - firmness(i) * (stands[i].rising + fallen));
+      for (const std::size_t from : pressing)
+        effects.entries.push_back((from == i ? 1 : 0) + dt * firmness(i) * give(from, i));
     }
-    loads = effects.partialPivLu().solve(loads).eval();
-    Eigen::Index least = 0;
-    if (loads.minCoeff(&least) > 0) {
-      for (Eigen::Index r = 0; r < count; ++r) stands[pressing[static_cast<std::size_t>(r)]].load = loads[r];
+    effects.factor(pressing.size());
+    effects.solve(loads);
+    const auto least = std::ranges::min_element(loads) - loads.begin();
+    if (loads[static_cast<std::size_t>(least)] > 0) {
+      for (std::size_t k = 0; k < pressing.size(); ++k) stands[pressing[k]].load = loads[k];
       return;
     }
     // A strut does not pull.
