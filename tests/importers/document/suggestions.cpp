@@ -338,3 +338,33 @@ TEST_CASE("what hangs on a faulty duration is not told to be at fault") {
   CHECK(!says(said, "share of the duration"));
   CHECK(!says(said, "cannot loop"));
 }
+
+TEST_CASE("numbers with units are suggested in the unit of their field, and not at all where that is not sure") {
+  const auto body = [](const std::string& members) {
+    return faults_of("{\"tweenfall\": 1, \"nodes\": {\"a\": {\"body\": {" + members + "}}}}", "n.json", {});
+  };
+  const auto world = [](const std::string& members) {
+    return faults_of("{\"tweenfall\": 1, \"world\": {" + members + "}}", "n.json", {});
+  };
+  const auto joint = [&](const std::string& members) {
+    return world(
+        "\"joints\": {\"j\": {\"hinge\": {\"axis\": \"z\", \"motor\": {\"speed\": \"180deg/s\"}}, \"between\": "
+        "\"a\", " +
+        members + "}}");
+  };
+  CHECK(says(body("\"shape\": {\"sphere\": {\"radius\": \"1ft\"}}"), "found \"1ft\"; say 0.3048"));
+  CHECK(says(body("\"shape\": {\"sphere\": {\"radius\": \"5px\"}}"), "found \"5px\"; it is a number, in m"));
+  CHECK(says(body("\"mass\": \"2lb\""), "found \"2lb\"; say 0.90718474"));
+  CHECK(says(body("\"mass\": \"1g\""), "found \"1g\"; say 0.001"));
+  CHECK(says(body("\"velocity\": [\"36km/h\", 0, 0]"), "found \"36km/h\"; say 10"));
+  CHECK(!says(body("\"friction\": \"1ft\""), "; say"));
+  CHECK(says(joint("\"break_force\": \"1kN\""), "found \"1kN\"; say 1000"));
+  CHECK(says(joint("\"break_torque\": \"3 kg\""), "found \"3 kg\"; it is a number, in N m"));
+  CHECK(says(joint("\"break_force\": 1"), "found \"180deg/s\"; say 180"));
+  CHECK(says(world("\"gravity\": \"-1g\""), "found \"-1g\"; say [0, -9.80665, 0]"));
+  CHECK(says(world("\"gravity\": [0, \"-1g\", 0]"), "found \"-1g\"; say -9.80665"));
+  CHECK(says(world("\"gravity\": \"-9.81 m/s^2\""), "; say [0, -9.81, 0]"));
+  CHECK(says(world("\"step\": \"4ms\""), "found \"4ms\"; say 0.004"));
+  CHECK(says(world("\"step\": \"240hz\""), "found \"240hz\"; say \"1/240\""));
+  CHECK(says(world("\"step\": \"1/240s\""), "found \"1/240s\"; say \"1/240\""));
+}

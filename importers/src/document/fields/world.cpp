@@ -163,6 +163,7 @@ const Form* step_form(FormStore& store, const ValueForms& values) {
     return text.size() > 2 && text.size() <= 11 && text.substr(0, 2) == "1/" && text[2] != '0' &&
            text.substr(2).find_first_not_of("0123456789") == std::string_view::npos;
   };
+  fraction.why = step_meant;
   return store.add(choice_of("a step: seconds above 0, or \"1/N\"", {values.positive, store.add(std::move(fraction))}));
 }
 

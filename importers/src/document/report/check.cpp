@@ -5,10 +5,12 @@
 #include "document/report/homes.h"
 #include "document/report/spellings.h"
 #include "document/report/suggestion.h"
+#include "document/report/units.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace tweenfall::document {
@@ -56,11 +58,12 @@ class Checker {
 
  private:
   // What could be written instead of a value of another kind.
-  static std::string instead_of(const Form& form, const json::Value& value) {
+  std::string instead_of(const Form& form, const json::Value& value) const {
     if (form.instead)
       if (std::string better = form.instead(value); !better.empty()) return better;
     const auto is_number = [](const Form* alternative) { return alternative->kind == Form::Kind::number; };
-    if (value.is(Kind::text) && std::ranges::any_of(form.alternatives, is_number)) return number_meant(value.text());
+    if (value.is(Kind::text) && std::ranges::any_of(form.alternatives, is_number))
+      return number_meant(value.text(), unit_of(form));
     if (std::string better = as_field_of(form, value); !better.empty()) return better;
     if (form.kind == Form::Kind::list && form.fewest <= 1) {
       if (resolved(*form.element, value)) return "; write it in a list, [...]";
@@ -68,12 +71,14 @@ class Checker {
       return better.empty() ? better : better + ", in a list";
     }
     if (form.kind == Form::Kind::list && form.element->kind == Form::Kind::number) return vector_meant(value);
-    if (form.kind == Form::Kind::number && value.is(Kind::text)) return number_meant(value.text());
+    if (form.kind == Form::Kind::number && value.is(Kind::text)) return number_meant(value.text(), unit_of(form));
     if (!form.words.empty()) return suggestion_of({}, form.words);
     for (const Form* alternative : form.alternatives)
       if (!alternative->words.empty()) return suggestion_of({}, alternative->words);
     return {};
   }
+
+  std::string_view unit_of(const Form& form) const { return unit_told(help_, form.what); }
 
   void fault(const json::Value& at, std::string message) {
     problems_.add(at, std::move(message));
@@ -165,7 +170,7 @@ class Checker {
 
   // Whether numbers stand in a row, or by turns with other things, that belong in lists of their own: one fault, not
   // one for each of them.
-  static bool is_flat(const Form& form, const json::Value& value) {
+  bool is_flat(const Form& form, const json::Value& value) const {
     const auto is_stray = [&](const json::Value& item) {
       return item.is(Kind::number) && !resolved(*form.element, item);
     };
@@ -213,7 +218,10 @@ class Checker {
         }
       }
       const std::size_t before = problems_.size();
+      const Field* const known = form.field(member.name);
+      const std::string_view outer = std::exchange(help_, known ? std::string_view(known->help) : std::string_view());
       this->value(*expected, member.value);
+      help_ = outer;
       if (problems_.size() == before || expected != form.others || !form.name_meant) continue;
       // If the name is wrong, the faults of its value under that name would be noise.
       const std::string ours = form.name_meant(member.name);
@@ -279,6 +287,7 @@ class Checker {
   json::Tree& tree_;
   Problems& problems_;
   std::vector<const Form*> around_;  // the enclosing objects, the outermost first
+  std::string_view help_;            // of the field that is read
   std::optional<Homes> homes_;       // made at the first use
 };
 

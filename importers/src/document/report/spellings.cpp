@@ -3,6 +3,7 @@
 #include <tweenfall/curves/number_text.h>
 
 #include "document/report/foreign_words.h"
+#include "document/report/units.h"
 
 #include <algorithm>
 #include <charconv>
@@ -34,10 +35,28 @@ std::optional<WithUnit> with_unit(std::string_view text) {
   if (fault != std::errc() || !std::isfinite(read.number)) return {};
   read.unit = text.substr(static_cast<std::size_t>(end - text.data()));
   while (!read.unit.empty() && read.unit.front() == ' ') read.unit.remove_prefix(1);
-  const bool word = read.unit.size() <= 8 && std::all_of(read.unit.begin(), read.unit.end(), [](char c) {
-                      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-                    });
-  return word ? std::optional(read) : std::nullopt;
+  constexpr std::size_t longest_unit = 16;
+  const bool plain = read.unit.size() <= longest_unit && std::all_of(read.unit.begin(), read.unit.end(), [](char c) {
+                       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == ' ' ||
+                              c == '/' || c == '^' || c == '*' || static_cast<unsigned char>(c) >= 0x80;
+                     });
+  const bool begins = read.unit.empty() || read.unit.starts_with("1/") || !(read.unit[0] >= '0' && read.unit[0] <= '9');
+  return plain && begins ? std::optional(read) : std::nullopt;
+}
+
+// The number in our unit; none where that is not sure.
+std::optional<double> in_unit(std::string_view unit, const WithUnit& read) {
+  if (read.unit.empty()) return read.number;
+  const std::optional<double> factor = factor_to(unit, read.unit);
+  if (!factor || !std::isfinite(read.number * *factor)) return {};
+  return read.number * *factor;
+}
+
+// As exactly as a few digits can; what comes from a factor such as that of radians is rounded.
+std::string in_digits(double number) {
+  constexpr std::size_t few = 10;
+  const std::string exact = number_text(number);
+  return exact.size() > few ? brief_text(number) : exact;
 }
 
 bool all_numbers(const json::Value& list) {
@@ -53,26 +72,13 @@ json::Value first_of(const json::Value& object, std::initializer_list<std::strin
 
 }  // namespace
 
-std::string number_meant(std::string_view text) {
-  // Ours are meters, kilograms, seconds and degrees.
-  constexpr std::pair<std::string_view, double> units[] = {{"cm", 0.01},
-                                                           {"mm", 0.001},
-                                                           {"km", 1000},
-                                                           {"g", 0.001},
-                                                           {"ms", 0.001},
-                                                           {"min", 60},
-                                                           {"khz", 1000},
-                                                           {"turn", 360},
-                                                           {"turns", 360},
-                                                           {"rev", 360},
-                                                           {"rad", 57.29577951308232},
-                                                           {"grad", 0.9}};
+std::string number_meant(std::string_view text, std::string_view unit) {
   const std::optional<WithUnit> read = with_unit(text);
   if (!read) return {};
-  const std::string unit = small_letters(read->unit);
-  for (const auto& [known, factor] : units)
-    if (unit == known) return said(brief_text(read->number * factor));
-  return said(number_text(read->number));
+  // Keys of angles, whose form does not say so, are in degrees as all angles are.
+  const bool of_angle = unit.empty() && factor_to("degrees", read->unit) == 1;
+  if (const std::optional<double> number = in_unit(of_angle ? "degrees" : unit, *read)) return said(in_digits(*number));
+  return unit.empty() ? std::string() : "; it is a number, in " + std::string(unit);
 }
 
 std::string member_said(std::string_view name, const json::Value& value) {
@@ -96,10 +102,21 @@ std::string time_meant(std::string_view text, bool share_of_duration) {
   if (share_of_duration && small == "to") return said("\"100%\"");
   const std::optional<WithUnit> read = with_unit(small);
   if (!read) return {};
-  if (read->unit == "ms") return said(number_text(read->number / 1000));
-  if (read->unit == "min") return said(number_text(read->number * 60));
-  if (read->unit.empty() || read->unit.front() == 's') return said(number_text(read->number));
-  return {};
+  const std::optional<double> seconds = in_unit("s", *read);
+  return seconds ? said(in_digits(*seconds)) : std::string();
+}
+
+std::string step_meant(std::string_view text) {
+  const std::optional<WithUnit> read = with_unit(text.substr(0, longest_said));
+  if (!read) return {};
+  const std::string unit = small_letters(read->unit);
+  const bool times = unit == "hz" || unit == "fps";
+  if (times && read->number >= 1 && read->number <= 999999999 && read->number == std::floor(read->number))
+    return said("\"1/" + number_text(read->number) + "\"");
+  const std::optional<WithUnit> parts = text.starts_with("1/") ? with_unit(text.substr(2, longest_said)) : std::nullopt;
+  if (parts && parts->number >= 1 && in_unit("s", *parts) == parts->number)
+    return said("\"1/" + number_text(parts->number) + "\"");
+  return text.starts_with("1/") ? std::string() : number_meant(text, "s");
 }
 
 std::string list_of_equal(const json::Value& value) {
@@ -109,6 +126,11 @@ std::string list_of_equal(const json::Value& value) {
 }
 
 std::string gravity_meant(const json::Value& value) {
+  if (value.is(Kind::text)) {
+    const std::optional<WithUnit> read = with_unit(value.text());
+    const std::optional<double> down = read ? in_unit("m/s^2", *read) : std::nullopt;
+    return down ? said("[0, " + in_digits(-std::abs(*down)) + ", 0]") : std::string();
+  }
   return value.is(Kind::number) ? said("[0, " + number_text(-std::abs(value.number())) + ", 0]") : vector_meant(value);
 }
 
@@ -138,8 +160,8 @@ std::string angles_meant(const json::Value& value) {
 std::string rotation_meant(const json::Value& value, std::string_view kind) {
   if (value.is(Kind::text) && kind != "quat") {
     const std::optional<WithUnit> read = with_unit(value.text());
-    if (read && (read->unit.empty() || read->unit.substr(0, 3) == "deg"))
-      return said("{\"axis\": \"z\", \"angle\": " + number_text(read->number) + "}");
+    if (const std::optional<double> angle = read ? in_unit("degrees", *read) : std::nullopt)
+      return said("{\"axis\": \"z\", \"angle\": " + in_digits(*angle) + "}");
   }
   if (value.is(Kind::number) && kind != "quat")
     return said("{\"axis\": \"z\", \"angle\": " + json::on_one_line(value) + "}");

@@ -12,7 +12,10 @@ namespace tweenfall::document {
 
 // All of these return `"; say ..."`, or empty where the meaning is not known.
 
-[[nodiscard]] std::string number_meant(std::string_view text);                           // "100px", "1.5", "90deg"
+// "1.5", "90deg"
+// @param unit  what the number is in, or empty where that is not known
+[[nodiscard]] std::string number_meant(std::string_view text, std::string_view unit);
+[[nodiscard]] std::string step_meant(std::string_view text);                             // "4ms", "240hz"
 [[nodiscard]] std::string member_said(std::string_view name, const json::Value& value);  // {"name": value}
 [[nodiscard]] std::string list_of_equal(const json::Value& value);                       // 2, where three are needed
 [[nodiscard]] std::string gravity_meant(const json::Value& value);                       // -9.81
