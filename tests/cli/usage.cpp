@@ -164,3 +164,10 @@ TEST_CASE("color comes on a terminal, not with NO_COLOR and not in a pipe") {
   CHECK(holds(folder.run_on_terminal("check none.json", ""), "\033["));
   CHECK(!holds(folder.run_on_terminal("check none.json", "NO_COLOR=1"), "\033["));
 }
+
+TEST_CASE("a verb that there is not is sent to the help, and a file that is not there is told alike by all verbs") {
+  const Folder folder;
+  CHECK(holds(folder.run("help").err, "tweenfall --help says what they do"));
+  CHECK(holds(folder.run("check nothing.json").err, "nothing.json: error: there is no such file"));
+  CHECK(holds(folder.run("import nothing.glb").err, "nothing.glb: error: there is no such file"));
+}

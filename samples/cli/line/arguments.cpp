@@ -165,7 +165,8 @@ int CommandLine::run(const std::vector<std::string>& arguments) {
   if (!arguments.empty() && !arguments[0].starts_with('-') &&
       std::find(names.begin(), names.end(), arguments[0]) == names.end())
     throw UsageError("there is no verb \"" + arguments[0] + "\"" + did_you_mean(arguments[0], names) +
-                     "\n  the verbs are " + listed(names));
+                     "\n  the verbs are " + listed(names) +
+                     "\n  tweenfall --help says what they do, tweenfall VERB --help says more of one");
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::Success& success) {

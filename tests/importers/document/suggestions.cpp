@@ -2,6 +2,8 @@
 
 #include "importers/document/document_files.h"
 
+#include <tweenfall/importers/inputs.h>
+
 #include <nlohmann/json.hpp>
 
 using namespace tweenfall;
@@ -367,4 +369,74 @@ TEST_CASE("numbers with units are suggested in the unit of their field, and not 
   CHECK(says(world("\"step\": \"4ms\""), "found \"4ms\"; say 0.004"));
   CHECK(says(world("\"step\": \"240hz\""), "found \"240hz\"; say \"1/240\""));
   CHECK(says(world("\"step\": \"1/240s\""), "found \"1/240s\"; say \"1/240\""));
+}
+
+TEST_CASE(
+    "names of what is there but does not fit are told what to add, and patterns the nearest that names something") {
+  const auto said = [](const std::string& when) {
+    const std::string body = "{\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}}}";
+    return faults_of("{\"tweenfall\": 1, \"nodes\": {\"box/1\": " + body + ", \"box/2\": " + body +
+                         ", \"bare\": {}}, \"handoff\": [{\"body\": \"box/2\", \"to\": \"free\", \"when\": " + when +
+                         "}]}",
+                     "n.json", {});
+  };
+  CHECK(says(said("{\"enter\": {\"region\": \"box/1\"}}"),
+             "the body of the node \"box/1\" is no sensor; add \"sensor\": true to its \"body\""));
+  CHECK(says(said("{\"leave\": {\"region\": \"bare\"}}"),
+             "\"bare\" has no body; give it a \"body\" with \"sensor\": true"));
+  CHECK(says(said("{\"enter\": {\"region\": \"box/*\"}}"), "none of the nodes called \"box/*\" is a sensor"));
+  CHECK(says(said("{\"enter\": {\"region\": \"bax/1\"}}"), "no node whose body is a \"sensor\" is called \"bax/1\""));
+  CHECK(says(said("{\"contact\": {\"with\": \"boxes/*\"}}"), "is called \"boxes/*\"; did you mean \"box/*\"?"));
+  CHECK(says(said("{\"contact\": {\"with\": \"tree/*\"}}"), "come in with \"import\": {\"tree\": \"FILE\"}"));
+}
+
+TEST_CASE("a joint is told how its kind is written, and what a ball lacks which kind has") {
+  const auto said = [](const std::string& joint) {
+    return faults_of("{\"tweenfall\": 1, \"world\": {\"joints\": {\"j\": {" + joint + "}}}}", "n.json", {});
+  };
+  CHECK(says(said("\"type\": \"hinge\", \"axis\": \"z\", \"between\": \"a\""),
+             "say {\"hinge\": {\"axis\": \"z\"}, \"between\": \"a\"}"));
+  CHECK(says(said("\"ball\": {\"limits\": [0, 1]}, \"between\": \"a\""),
+             "unknown field \"limits\"; a ball turns freely, and a \"swing_twist\" has"));
+}
+
+TEST_CASE("owners, colors and inputs of graphs are told what they are") {
+  const std::string owner = faults_of(
+      "{\"tweenfall\": 1, \"nodes\": {\"a\": {\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}}}}, \"handoff\": "
+      "[{\"body\": \"a\", \"to\": \"dynamic\", \"when\": {\"at\": 1}}]}",
+      "n.json", {});
+  CHECK(says(owner, "expected an owner: \"free\", \"keyed\" or a drive, such as {\"hz\": 5}, found \"dynamic\""));
+  const std::string color =
+      faults_of("{\"tweenfall\": 1, \"nodes\": {\"a\": {\"color\": \"oklch(0.7 0.2 140)\"}}}", "n.json", {});
+  CHECK(says(color, "\"#rrggbb\" or \"#rrggbbaa\", found"));
+  CHECK(says(color, "\"oklch\" is a \"space\" of a track, in which its colors are mixed"));
+  const std::string input = faults_of(
+      "{\"tweenfall\": 1, \"graphs\": {\"g\": {\"parameters\": {\"energy\": {\"start\": 0}}, \"inputs\": [[\"energy\", "
+      "1]]}}}",
+      "n.json", {});
+  CHECK(says(input,
+             "the time of an input comes first: [time, parameter, value] or [time, event]; found [\"energy\", 1]"));
+  CHECK(!says(input, "no machine waits"));
+}
+
+TEST_CASE("what no input can move is told at its place in the inputs") {
+  const StageDescription stage = Document::parse(
+                                     "{\"tweenfall\": 1, \"nodes\": {\"floor\": {\"body\": {\"shape\": {\"plane\": "
+                                     "{}}, \"drive\": \"keyed\"}}, \"wall\": {\"body\": {\"shape\": "
+                                     "{\"sphere\": {\"radius\": 1}}, \"static\": true}}}}",
+                                     "n.json", {})
+                                     .stage();
+  const auto said = [&](const std::string& input) -> std::string {
+    try {
+      (void)parse_inputs("{\"tweenfall\": 1, \"inputs\": [\n{\"at\": 0, " + input + "}]}", "i.json", stage);
+      return {};
+    } catch (const DocumentError& error) {
+      return error.what();
+    }
+  };
+  CHECK(
+      says(said("\"release\": {\"body\": \"floor\"}"), "i.json:2:31: error: \"floor\" is a plane, which has no mass"));
+  CHECK(says(said("\"hand_over\": {\"body\": \"floor\", \"to\": \"free\"}"), "which has no mass"));
+  CHECK(says(said("\"release\": {\"body\": \"wall\"}"), "i.json:2:31: error: \"wall\" is static"));
+  CHECK(said("\"hand_over\": {\"body\": \"floor\", \"to\": \"keyed\"}").empty());
 }

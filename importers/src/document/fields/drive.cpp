@@ -5,6 +5,8 @@ namespace tweenfall::document::fields {
 
 namespace {
 
+constexpr const char* what_owner = "an owner: \"free\", \"keyed\" or a drive, such as {\"hz\": 5}";
+
 const Table<Drive>& drive_table() {
   static const Table<Drive> table(
       "a drive",
@@ -29,12 +31,10 @@ const Form* owner_form(FormStore& store, const ValueForms& values) {
   drive.foremost_fault = [](const json::Value& value) {
     for (const std::string word : {"free", "keyed"})
       if (value.find(word) && value.members().size() == 1)
-        return "expected an owner: \"free\", \"keyed\" or a drive {\"hz\", ...}; say " + json::in_quotes(word);
+        return "expected " + std::string(what_owner) + "; say " + json::in_quotes(word);
     return std::string();
   };
-  Form form = choice_of(
-      "an owner: \"free\", \"keyed\" or a drive {\"hz\", ...}",
-      {store.add(words_of("an owner: \"free\" or \"keyed\"", {"free", "keyed"})), store.add(std::move(drive))});
+  Form form = choice_of(what_owner, {store.add(words_of(what_owner, {"free", "keyed"})), store.add(std::move(drive))});
   form.definition = "owner";
   return store.add(std::move(form));
 }

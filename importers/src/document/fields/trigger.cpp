@@ -76,14 +76,19 @@ void read_instant(const json::Value& value, RuleBeingRead& rule, Building& build
 }
 
 // A name or pattern of nodes, at least one of which must satisfy `fits`.
-template <class Thing, class Fits>
-Meaning<Thing> name_of_nodes(std::string Thing::*member_of, const std::string& lacks, Fits fits) {
+// @param what_lacks  says it of nodes that there are, of which none satisfies it
+template <class Thing, class Fits, class WhatLacks>
+Meaning<Thing> name_of_nodes(std::string Thing::*member_of, const std::string& lacks, Fits fits, WhatLacks what_lacks) {
   Meaning<Thing> meaning = member<Thing>(member_of);
-  meaning.read = [member_of, lacks, fits](const json::Value& value, Thing& thing, Building& building) {
+  meaning.read = [member_of, lacks, fits, what_lacks](const json::Value& value, Thing& thing, Building& building) {
     take(value, thing.*member_of, building);
     const std::vector<std::size_t> named = building.nodes_named(thing.*member_of);
     const auto right = [&](std::size_t i) { return fits(building.stage.nodes[i]); };
     if (building.excused(thing.*member_of) || std::any_of(named.begin(), named.end(), right)) return;
+    if (std::string lacking = what_lacks(thing.*member_of, named, building); !lacking.empty()) {
+      building.problems.add(value, std::move(lacking));
+      return;
+    }
     std::vector<std::string> names;
     for (const NodeDescription& node : building.stage.nodes)
       if (fits(node)) names.push_back(node.name);
@@ -100,14 +105,31 @@ bool is_sensor(const NodeDescription& node) {
   return node.body && node.body->sensor;
 }
 
+std::string no_sensor(const std::string& name, const std::vector<std::size_t>& named, const Building& building) {
+  if (named.empty()) return {};
+  const std::string which = named.size() == 1 ? "the node " + json::in_quotes(building.stage.nodes[named[0]].name)
+                                              : "none of the nodes called " + json::in_quotes(name);
+  const bool any_body =
+      std::any_of(named.begin(), named.end(), [&](std::size_t i) { return has_body(building.stage.nodes[i]); });
+  if (named.size() > 1) return which + " is a sensor; give one \"sensor\": true in its \"body\"";
+  return any_body ? "the body of " + which + " is no sensor; add \"sensor\": true to its \"body\""
+                  : which + " has no body; give it a \"body\" with \"sensor\": true";
+}
+
+std::string no_body(const std::string& name, const std::vector<std::size_t>& named, const Building&) {
+  if (named.empty()) return {};
+  return named.size() == 1 ? "the node " + json::in_quotes(name) + " has no body; give it a \"body\""
+                           : "none of the nodes called " + json::in_quotes(name) + " has a body";
+}
+
 template <class Passage>
 const Table<Passage>& passage_table() {
   static const Table<Passage> table(
       "a way in or out",
       {{"region", &ValueForms::name, "name or pattern of a node whose body is a sensor",
-        name_of_nodes(&Passage::region, "no node whose body is a \"sensor\" is called ", is_sensor), true},
+        name_of_nodes(&Passage::region, "no node whose body is a \"sensor\" is called ", is_sensor, no_sensor), true},
        {"who", &ValueForms::name, "name or pattern; absent: the rule's own body",
-        name_of_nodes(&Passage::who, "no node with a body is called ", has_body)}});
+        name_of_nodes(&Passage::who, "no node with a body is called ", has_body, no_body)}});
   return table;
 }
 

@@ -80,6 +80,15 @@ const Form* inputs_form(FormStore& store, const ValueForms& values) {
   input.parts = {values.stage_time, values.name, setting_form(store, values)};
   input.fewest = 2;
   input.on_one_line = true;
+  input.foremost_fault = [time = values.stage_time](const json::Value& value) {
+    if (value.items().empty() || !value.items()[0].is(Kind::text)) return std::string();
+    const Form* const form = resolved(*time, value.items()[0]);
+    if (!form || !form->fits || form->fits(value.items()[0].text())) return std::string();
+    const bool known = form->why && !form->why(value.items()[0].text()).empty();
+    return known ? std::string()
+                 : "the time of an input comes first: [time, parameter, value] or [time, event]; found " +
+                       json::on_one_line(value);
+  };
   Form list = list_of(store.add(std::move(input)), "a list of inputs", 0);
   list.one_per_line = true;
   return store.add(std::move(list));

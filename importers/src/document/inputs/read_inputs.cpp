@@ -15,6 +15,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <type_traits>
 
 namespace tweenfall {
 
@@ -145,14 +146,27 @@ class Reader {
     if (!value) return;
     OfBody<What> of;
     table.read(value, of, building_);
-    if (of.place) static_cast<void>(fields::body_called(of.place, building_));
+    const std::size_t node = of.place ? fields::body_called(of.place, building_) : no_node;
+    constexpr bool releases = std::is_same_v<What, input::Release>;
+    if (node != no_node && !std::is_same_v<What, input::Push>) require_movable(of.place, node, releases);
     inputs.push_back({time_, of.input});
+  }
+
+  /// That a body can change its owner. @param freely  to be moved by forces, for which it needs a mass
+  void require_movable(const json::Value& place, std::size_t node, bool freely) {
+    const BodyDescription& body = *building_.stage.nodes[node].body;
+    if (body.fixed)
+      building_.problems.add(place, json::in_quotes(place.text()) + " is static: nothing can take it over");
+    else if (freely && is_scenery(body.shape.solid))
+      building_.problems.add(place, json::in_quotes(place.text()) + " is " + kind_name(body.shape.solid) +
+                                        ", which has no mass: it stays keyed");
   }
 
   void read_hand_over(const json::Value& value) {
     OfBody<HandOverRead> of;
     hand_over_table().read(value, of, building_);
-    if (of.place) static_cast<void>(fields::body_called(of.place, building_));
+    const std::size_t node = of.place ? fields::body_called(of.place, building_) : no_node;
+    if (node != no_node) require_movable(of.place, node, of.input.change.change.to.owner() != Owner::keyed);
     inputs.push_back({time_, input::HandOver{of.input.body, of.input.change.change}});
   }
 
@@ -328,7 +342,9 @@ std::vector<TimedInput> read_inputs(const std::filesystem::path& file, const Sta
   std::error_code fault;
   if (std::filesystem::is_directory(file, fault)) throw DocumentError({file_problem(name, "this is a folder")});
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw DocumentError({file_problem(name, "cannot be opened; is it there, and may it be read?")});
+  if (!stream)
+    throw DocumentError({file_problem(
+        name, std::filesystem::exists(file, fault) ? "cannot be opened; may it be read?" : "there is no such file")});
   const std::optional<std::string> text = read_within(stream, largest_document);
   if (!text) throw DocumentError({file_problem(name, "is larger than a document may be")});
   if (stream.bad()) throw DocumentError({file_problem(name, "cannot be read to its end")});

@@ -3,6 +3,7 @@
 #include "document/fields/things.h"
 #include "document/joints/joint.h"
 #include "document/read/clip_times.h"
+#include "document/report/spellings.h"
 #include "document/report/suggestion.h"
 
 #include <tweenfall/anim/hierarchy.h>
@@ -146,6 +147,12 @@ const Form* form(FormStore& store, const ValueForms& values) {
   Form joint = joint_table().form(store, values);
   std::vector<std::string> names;
   for (const fields::Row<Read>& row : kinds()) names.push_back(row.name);
+  std::vector<std::string> beside;
+  for (const fields::Row<Read>& row : own_rows()) beside.push_back(row.name);
+  joint.foremost_fault = [names, beside](const json::Value& value) {
+    const std::string meant = kind_meant(value, names, beside);
+    return meant.empty() ? meant : "a joint says its kind by the name of a field" + meant;
+  };
   joint.together = {exactly_one(std::move(names))};
   joint.definition = "joint";
   return store.add(map_of(store.add(std::move(joint)), "an object with joints by name"));

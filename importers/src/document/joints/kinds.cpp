@@ -217,6 +217,22 @@ fields::Row<Read> kind(std::string name, const Table& table, std::string help, s
   return {std::move(name), fields::form_of(table), std::move(help), {read}, false, {}, std::move(elsewhere)};
 }
 
+// What other programs' balls limit has a kind of its own.
+fields::Row<Read> ball() {
+  fields::Row<Read> row =
+      kind<BallJoint>("ball", none_table("ball"), "holds a point", {"point", "spherical", "socket", "point2point"});
+  row.form = fields::FormOf::Make([](FormStore& store, const ValueForms& values) {
+    Form form = none_table("ball").listing_form(store, values);
+    form.said_of = [](std::string_view name) {
+      const bool limits = name == "limits" || name == "swing" || name == "twist" || name == "motor";
+      return limits ? std::string("; a ball turns freely, and a \"swing_twist\" has \"swing\", \"twist\" and \"motor\"")
+                    : std::string();
+    };
+    return store.add(std::move(form));
+  });
+  return row;
+}
+
 // A distance has a length or limits.
 fields::Row<Read> distance() {
   fields::Row<Read> row =
@@ -232,7 +248,7 @@ fields::Row<Read> distance() {
 }  // namespace
 
 Rows kinds() {
-  return {kind<BallJoint>("ball", none_table("ball"), "holds a point", {"point", "spherical", "socket", "point2point"}),
+  return {ball(),
           kind<HingeJoint>("hinge", hinge_table(), "turns about an axis", {"revolute", "pin"}),
           kind<SliderJoint>("slider", slider_table(), "slides along an axis", {"prismatic", "rail"}),
           kind<FixedJoint>("fixed", none_table("fixed"), "a weld", {"weld", "lock", "rigid"}),

@@ -68,7 +68,9 @@ ReadDocument read_document_file(const std::filesystem::path& file, Reading& read
   std::error_code fault;
   if (std::filesystem::is_directory(file, fault)) throw DocumentError({file_problem(name, "this is a folder")});
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw DocumentError({file_problem(name, "cannot be opened; is it there, and may it be read?")});
+  if (!stream)
+    throw DocumentError({file_problem(
+        name, std::filesystem::exists(file, fault) ? "cannot be opened; may it be read?" : "there is no such file")});
   std::optional<std::string> read = read_within(stream, largest_document);
   if (!read)
     throw DocumentError({file_problem(name, "is larger than " + std::to_string(largest_document >> 20) + " MiB")});

@@ -180,6 +180,7 @@ class Checker {
   }
 
   void tuple(const Form& form, const std::string& what, const json::Value& value) {
+    if (is_foremost_fault(form, value)) return;
     const bool fits = value.items().size() >= form.fewest && value.items().size() <= form.parts.size();
     const std::string meant = !fits && form.instead ? form.instead(value) : std::string();
     if (!meant.empty()) {
@@ -193,13 +194,15 @@ class Checker {
     if (!fits) tree_.mark_faulty(value);
   }
 
+  bool is_foremost_fault(const Form& form, const json::Value& value) {
+    std::string message = form.foremost_fault ? form.foremost_fault(value) : std::string();
+    if (message.empty()) return false;
+    fault(value, std::move(message));
+    return true;
+  }
+
   void object(const Form& form, const std::string& what, const json::Value& value) {
-    if (form.foremost_fault) {
-      if (std::string message = form.foremost_fault(value); !message.empty()) {
-        fault(value, std::move(message));
-        return;
-      }
-    }
+    if (is_foremost_fault(form, value)) return;
     std::vector<std::string> meant;  // fields similar to a misspelled name
     around_.push_back(&form);
     for (const json::Member& member : value.members()) {

@@ -118,6 +118,10 @@ std::string color_meant(std::string_view text) {
   if (small.rfind("rgb", 0) == 0) return hex_of(parts_of_rgb(numbers_in(small)));
   if (small.rfind("hsl", 0) == 0) return hex_of(parts_of_hue(numbers_in(small), ColorSpace::hsl));
   if (small.rfind("hwb", 0) == 0) return hex_of(parts_of_hue(numbers_in(small), ColorSpace::hwb));
+  for (const std::string_view space : {"oklab", "oklch", "lab", "lch", "hsv"})
+    if (small.starts_with(std::string(space) + "("))
+      return "; a color is written in sRGB, and \"" + std::string(space) +
+             "\" is a \"space\" of a track, in which its colors are mixed";
   return {};
 }
 

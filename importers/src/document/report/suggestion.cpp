@@ -56,7 +56,25 @@ std::string component_meant(std::string_view track) {
          (meant == "color" ? "\"r\", \"g\", \"b\" and \"a\"" : "\"x\", \"y\" and \"z\"");
 }
 
+namespace {
+
+// The nearest pattern of all names below one, "box/*"; empty if none is near.
+std::string pattern_meant(std::string_view wrong, const std::vector<std::string>& names) {
+  std::vector<std::string> patterns;
+  for (const std::string& name : names) {
+    const std::size_t slash = name.rfind('/');
+    if (slash == std::string::npos) continue;
+    std::string pattern = name.substr(0, slash + 1) + "*";
+    if (patterns.empty() || patterns.back() != pattern) patterns.push_back(std::move(pattern));
+  }
+  return nearest_name(wrong, patterns);
+}
+
+}  // namespace
+
 std::string suggestion_or_import(std::string_view wrong, const std::vector<std::string>& names) {
+  if (wrong.find('*') != std::string_view::npos)
+    if (const std::string meant = pattern_meant(wrong, names); !meant.empty()) return suggestion_of(meant, names);
   const std::size_t slash = wrong.find('/');
   if (slash == std::string_view::npos) {
     // A name from an import, without the import's name.
