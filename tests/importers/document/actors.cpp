@@ -153,3 +153,29 @@ TEST_CASE("soft bodies of a document have groups, a thickness and air drag; in v
   CHECK(notes(emitters + R"(, "most": 1000}})").find("slow") == std::string::npos);
   CHECK(notes(R"("particles": {"rain": {"emitters": [{"rate": 100}], "life": 2}})").empty());
 }
+
+TEST_CASE("controls of a vehicle beyond their range are refused, as constants and as keys") {
+  const auto said = [](const std::string& control) {
+    try {
+      (void)Document::parse(
+          "{\"tweenfall\": 1, \"nodes\": {\"cart\": {\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}}}}, "
+          "\"world\": "
+          "{\"vehicles\": {\"car\": {\"chassis\": \"cart\", \"wheels\": {\"w\": {\"mount\": [0, 0, 0]}},\n" +
+              control + "}}}}",
+          "n.json", {});
+      return std::string();
+    } catch (const DocumentError& error) {
+      return std::string(error.what());
+    }
+  };
+  const auto starts = [](const std::string& text, const std::string& start) {
+    CAPTURE(text);
+    CHECK(text.find(start) != std::string::npos);
+  };
+  starts(said("\"steer\": 30"), "n.json:2:10: error: expected a number from -1 to 1, found 30");
+  starts(said("\"throttle\": 2"), "n.json:2:13: error: expected a number from -1 to 1, found 2");
+  starts(said("\"brake\": -0.5"), "n.json:2:10: error: expected a number from 0 to 1, found -0.5");
+  starts(said("\"steer\": [[0, 0], [1, 30]]"), "n.json:2:23: error: expected a number from -1 to 1, found 30");
+  starts(said("\"brake\": [[0, 0], {\"t\": 1, \"v\": 1.5}]"), "expected a number from 0 to 1, found 1.5");
+  CHECK(said("\"steer\": [[0, -1], [1, 1]], \"throttle\": -1, \"brake\": {\"expression\": \"2 * t\"}").empty());
+}

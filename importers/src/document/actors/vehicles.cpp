@@ -1,4 +1,7 @@
 #include "document/actors/actors.h"
+
+#include <tweenfall/curves/number_text.h>
+
 #include "document/fields/things.h"
 #include "document/forces/force.h"
 
@@ -79,14 +82,38 @@ fields::Meaning<VehicleDescription> axis(Vec3 VehicleDescription::*part, std::st
           std::move(standard)};
 }
 
-fields::Row<VehicleDescription> script(std::string name, std::string help, Strength VehicleDescription::*part) {
-  const auto read = [part](const json::Value& value, VehicleDescription& vehicle, Building& building) {
+std::string what_part(double low) {
+  return low < 0 ? "a number from -1 to 1" : "a number from 0 to 1";
+}
+
+// A constant is held against its range by its form; curves may leave it between keys, where they are clamped.
+void require_keys_within(const json::Value& value, double low, Building& building) {
+  if (!value.is(Kind::list)) return;
+  for (const json::Value& key : value.items()) {
+    const bool whole = key.is(Kind::list) && key.items().size() > 1;
+    for (const json::Value& part : {whole ? key.items()[1] : usable(key, "v"), usable(key, "v_in")})
+      if (part && part.is(Kind::number) && !(part.number() >= low && part.number() <= 1))
+        building.problems.add(part, "expected " + what_part(low) + ", found " + number_text(part.number()));
+  }
+}
+
+fields::Row<VehicleDescription> script(std::string name, double low, std::string help,
+                                       Strength VehicleDescription::*part) {
+  const auto make = [low](FormStore& store, const ValueForms& values) {
+    Form form = *forces::strength_form(store, values);
+    form.what = what_part(low) + ", a list of keys in stage time, or {\"expression\": text}";
+    for (const Form*& alternative : form.alternatives)
+      if (alternative->kind == Form::Kind::number) alternative = store.add(bounded(what_part(low), low, false, 1));
+    return store.add(std::move(form));
+  };
+  const auto read = [part, low](const json::Value& value, VehicleDescription& vehicle, Building& building) {
+    require_keys_within(value, low, building);
     ForceDescription scripted;
     scripted.strength = 0;
     forces::read_strength(value, scripted, building);
     vehicle.*part = scripted.strength;
   };
-  return {std::move(name), forces::strength_form, std::move(help), {read, "0"}};
+  return {std::move(name), fields::FormOf::Make(make), std::move(help), {read, "0"}};
 }
 
 const fields::Table<VehicleDescription>& vehicle_table() {
@@ -100,9 +127,10 @@ const fields::Table<VehicleDescription>& vehicle_table() {
        {"forward", &ValueForms::axis, "on the chassis", axis(&VehicleDescription::forward, "\"x\"")},
        {"up", &ValueForms::axis, "on the chassis, across \"forward\"", axis(&VehicleDescription::up, "\"y\"")},
        {"wheels", wheels_form, "by name", {read_wheels}, true},
-       script("throttle", "-1 to 1: part of each wheel's \"torque\", over stage time", &VehicleDescription::throttle),
-       script("brake", "0 to 1: part of each wheel's \"brake\"", &VehicleDescription::brake),
-       script("steer", "-1 to 1, to the left: part of each wheel's \"lock\"", &VehicleDescription::steer)});
+       script("throttle", -1, "-1 to 1: part of each wheel's \"torque\", over stage time",
+              &VehicleDescription::throttle),
+       script("brake", 0, "0 to 1: part of each wheel's \"brake\"", &VehicleDescription::brake),
+       script("steer", -1, "-1 to 1, to the left: part of each wheel's \"lock\"", &VehicleDescription::steer)});
   return table;
 }
 
