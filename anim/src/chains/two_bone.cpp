@@ -267,10 +267,9 @@ TwoBoneChain::TwoBoneChain(const Hierarchy& nodes, const TwoBoneSettings& settin
     problems.require(bone == 0 || std::sqrt(axis.cross(first).squaredNorm()) > 1e-6 * size * bone,
                      "axis is along the bone from start to middle; it must be across it");
   } else {
-    problems.at({}).require(
-        size > 1e-6 * lengths && size > 0,
-        "it is straight at rest, so that which way it bends must be told: give axis, about which the "
-        "middle turns when it bends, in the space of the start");
+    problems.at({}).require(size > 1e-6 * lengths && size > 0,
+                            "it is straight at rest, so that which way it bends must be told: give \"axis\", such as "
+                            "[0, 0, 1], about which the middle turns when it bends, in the space of the start");
   }
   problems.report();
   axis_ = axis / size;

@@ -35,6 +35,7 @@ LevelLabels labels_of(const std::vector<double>& levels) {
   if (levels.back() - levels.front() > hardly * std::abs(levels.front())) return labels;
   labels.base = labels.texts.front();
   std::vector<double> above;
+  above.reserve(levels.size());
   for (const double level : levels) above.push_back(level - levels.front());
   labels.texts = tick_texts(above);
   for (std::size_t i = 1; i < above.size(); ++i) labels.texts[i].insert(0, "+");
