@@ -46,7 +46,7 @@ class Swing : public Changing {
     take_up(script, course, moment, here);
     State& state = std::get<State>(here.state);
     for (;;) {
-      const double from = here.instant, jump = next_jump(script, moment, from);
+      const double from = here.instant, jump = jump_of_base(script, moment, from);
       const Clock clock{&script, from, jump};
       const PoseAt pose_at = [&clock](double time, std::span<Motion> out) { clock.at(time, out); };
       const double next = std::min(jump, next_instant(log, from));
@@ -108,7 +108,7 @@ class Swing : public Changing {
 
   /// The first time after a clock began at which the base may jump, because of a clip in it or of what lies below the
   /// graph, up to a second beyond the moment: springs look ahead by no more than a step; infinity for none.
-  [[nodiscard]] double next_jump(const Script& script, const Moment& moment, double from) const noexcept {
+  [[nodiscard]] double jump_of_base(const Script& script, const Moment& moment, double from) const noexcept {
     const double until = moment.time + 1;
     double first = std::numeric_limits<double>::infinity();
     if (base()) first = base()->next_jump(script.log, moment.start, from, until).value_or(first);
@@ -140,8 +140,8 @@ class Swing : public Changing {
     double instant = moment.side == Side::out ? moment.time : std::nextafter(moment.time, -1.0), limit = moment.time;
     while (const SwingMark* found = furthest_mark(course, instant, limit)) {
       // A mark on an earlier clock is valid up to the end of that clock.
-      const double end =
-          std::min({moment.time, next_instant(script.log, found->instant), next_jump(script, moment, found->instant)});
+      const double end = std::min(
+          {moment.time, next_instant(script.log, found->instant), jump_of_base(script, moment, found->instant)});
       if (found->time <= end && std::holds_alternative<State>(found->state)) {
         here = *found;
         return;

@@ -98,7 +98,9 @@ TEST_CASE(
                           {10, {.damping = 50, .bending = 1e-3}},
                           {10, {.damping = 5000}},
                           {10, {.bending = 100}}};
-  for (const auto& [cells, material] : weaves) {
+  for (const Weave& weave : weaves) {
+    const int cells = weave.cells;
+    const ClothMaterial& material = weave.material;
     CAPTURE(cells);
     CAPTURE(material.stretching);
     CAPTURE(material.damping);
