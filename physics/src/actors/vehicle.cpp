@@ -172,8 +172,8 @@ Vehicle::Stand Vehicle::find_stand(const World& world, const Motion& chassis, st
   return stand;
 }
 
-/// The forces of struts so stiff for the step that those of its start would throw the chassis off: k x - c v with the
-/// compression and the speed that they all leave at its end. At rest that changes nothing.
+/// The forces of struts so stiff for the step, or damped so little, that those of its start would throw the chassis
+/// off: k x - c v with the compression and the speed that they all leave at its end. At rest that changes nothing.
 /// Source: backward Euler, Hairer and Wanner, Solving Ordinary Differential Equations II, 1996, IV.3.
 void Vehicle::press_at_end(const World& world, std::vector<Stand>& stands, double dt) const {
   const auto line_of = [&](std::size_t i) { return vehicles::Line{stands[i].point, stands[i].normal}; };
@@ -185,8 +185,12 @@ void Vehicle::press_at_end(const World& world, std::vector<Stand>& stands, doubl
   std::vector<std::size_t> pressing;
   for (std::size_t i = 0; i < stands.size(); ++i)
     if (stands[i].touches) pressing.push_back(i);
-  if (std::ranges::none_of(pressing, [&](std::size_t i) { return dt * firmness(i) * give(i, i) > vehicles::firm; }))
-    return;
+  // A force that is held for the step pushes as if the strut were damped by k dt / 2 less than it is.
+  const auto gains = [&](std::size_t i) {
+    return settings_.wheels[i].damping < 0.5 * dt * settings_.wheels[i].stiffness ||
+           dt * firmness(i) * give(i, i) > vehicles::firm;
+  };
+  if (std::ranges::none_of(pressing, gains)) return;
   const bool falls = !world.is_fixed(settings_.chassis) && world.owner(settings_.chassis) != Owner::keyed;
   while (!pressing.empty()) {
     forces::Elimination effects;
