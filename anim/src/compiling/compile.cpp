@@ -82,7 +82,7 @@ Steps steps_for(const Fitted& fit, const std::array<double, lane_count>& room) {
 
 /// Interleaves the rows of the channels of a run.
 void weave(const std::vector<Encoded>& channels, std::vector<std::int32_t> Encoded::*part, std::size_t rows,
-           std::vector<std::int32_t>& out) {
+           LineVector<std::int32_t>& out) {
   for (std::size_t row = 0; row < rows; ++row)
     for (const Encoded& channel : channels) {
       const std::vector<std::int32_t>& words = channel.*part;

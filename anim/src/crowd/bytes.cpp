@@ -90,8 +90,8 @@ class Reader {
     return many;
   }
   /// @param many known from the bytes before; memory is allocated only after checking that they are there
-  template <class T>
-  void all(std::vector<T>& values, std::uint64_t many) {
+  template <class T, class Allocator>
+  void all(std::vector<T, Allocator>& values, std::uint64_t many) {
     require(many <= left() / sizeof(T), "it claims more than fits in the remaining bytes");
     values.resize(static_cast<std::size_t>(many));
     for (T& value : values) value = number<T>();

@@ -13,6 +13,18 @@ namespace tweenfall::crowd {
 using Lanes = float __attribute__((vector_size(32), aligned(32)));
 using Words = std::int32_t __attribute__((vector_size(32), aligned(32)));
 
+/// How many versions of a kernel this processor can run, in the order plain, AVX2, AVX-512: the last has more
+/// registers, which here stay as wide.
+[[nodiscard]] inline std::size_t possible_versions() noexcept {
+#if defined(__x86_64__) || defined(__i386__)
+  if (!__builtin_cpu_supports("avx2")) return 1;
+  return __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") ? 3 : 2;
+#else
+  return 1;
+#endif
+}
+#define TWEENFALL_CROWD_AVX512 [[gnu::target("avx512f,avx512vl,avx512dq")]]
+
 /// Inlined functions use the instruction set of the function that they are inlined into.
 #define TWEENFALL_CROWD_LANES [[gnu::always_inline]] inline
 

@@ -2,6 +2,8 @@
 
 #include "crowd/lanes.h"
 
+#include <array>
+
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace tweenfall::crowd {
@@ -260,7 +262,8 @@ TWEENFALL_CROWD_LANES void compose_all(const std::uint32_t* order, const std::ui
   }
 }
 
-// The same source for each instruction set. None of them has a fused multiply and add, so the bits are the same.
+// The same source for each instruction set. None of them fuses a multiplication and an addition, so the bits are the
+// same.
 #define TWEENFALL_CROWD_VERSIONS(name, target)                                                                   \
   target void blend_##name(const CrowdLayer* layers, std::size_t layer_count, float portion, std::size_t groups, \
                            CrowdGroup* out) {                                                                    \
@@ -291,20 +294,24 @@ TWEENFALL_CROWD_LANES void compose_all(const std::uint32_t* order, const std::ui
 TWEENFALL_CROWD_VERSIONS(plain, )
 #if defined(__x86_64__) || defined(__i386__)
 TWEENFALL_CROWD_VERSIONS(avx2, [[gnu::target("avx2")]])
+TWEENFALL_CROWD_VERSIONS(avx512, TWEENFALL_CROWD_AVX512)
 #endif
 #undef TWEENFALL_CROWD_VERSIONS
 
 }  // namespace
 
-const PoseKernels& plain_pose_kernels() {
-  return plain_kernels;
+std::span<const PoseKernels* const> possible_pose_kernels() {
+#if defined(__x86_64__) || defined(__i386__)
+  static constexpr std::array all = {&plain_kernels, &avx2_kernels, &avx512_kernels};
+#else
+  static constexpr std::array all = {&plain_kernels};
+#endif
+  return std::span(all).first(possible_versions());
 }
 
 const PoseKernels& fastest_pose_kernels() {
-#if defined(__x86_64__) || defined(__i386__)
-  if (__builtin_cpu_supports("avx2")) return avx2_kernels;
-#endif
-  return plain_kernels;
+  static const PoseKernels& fastest = *possible_pose_kernels().back();
+  return fastest;
 }
 
 }  // namespace tweenfall::crowd

@@ -4,6 +4,8 @@
 
 #include <tweenfall/anim/crowd_kernels.h>
 
+#include <span>
+
 namespace tweenfall::crowd {
 
 struct PoseKernels {
@@ -20,7 +22,9 @@ struct PoseKernels {
                   CrowdMatrix* out);
 };
 
-[[nodiscard]] const PoseKernels& plain_pose_kernels();
+/// For all instruction sets that this processor has, the plainest first. All give the same bits.
+[[nodiscard]] std::span<const PoseKernels* const> possible_pose_kernels();
+/// The last of them.
 [[nodiscard]] const PoseKernels& fastest_pose_kernels();
 
 void blend_with(const PoseKernels& kernels, std::span<const CrowdLayer> layers, std::span<CrowdGroup> out) noexcept;

@@ -2,6 +2,8 @@
 
 #include "crowd/lanes.h"
 
+#include <array>
+
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace tweenfall::crowd {
@@ -219,38 +221,39 @@ TWEENFALL_CROWD_LANES void all_runs(const CompiledClip& clip, std::span<const Ru
   for (const RunPlace& place : places) whole_run<rates>(clip, *place.run, place, pose, moving);
 }
 
-// The same source for each instruction set. None of them has a fused multiply and add, so the bits are the same.
-void pose_plain(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose) {
-  all_runs<false>(clip, places, pose, nullptr);
-}
-void pose_and_rates_plain(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose,
-                          CrowdRates* rates) {
-  all_runs<true>(clip, places, pose, rates);
-}
+// The same source for each instruction set. None of them fuses a multiplication and an addition, so the bits are the
+// same.
+#define TWEENFALL_CROWD_VERSIONS(name, target)                                                                    \
+  target void pose_##name(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose) {         \
+    all_runs<false>(clip, places, pose, nullptr);                                                                 \
+  }                                                                                                               \
+  target void pose_and_rates_##name(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose, \
+                                    CrowdRates* rates) {                                                          \
+    all_runs<true>(clip, places, pose, rates);                                                                    \
+  }                                                                                                               \
+  constexpr SampleKernels name##_kernels = {pose_##name, pose_and_rates_##name};
 
+TWEENFALL_CROWD_VERSIONS(plain, )
 #if defined(__x86_64__) || defined(__i386__)
-[[gnu::target("avx2")]] void pose_avx2(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose) {
-  all_runs<false>(clip, places, pose, nullptr);
-}
-[[gnu::target("avx2")]] void pose_and_rates_avx2(const CompiledClip& clip, std::span<const RunPlace> places,
-                                                 CrowdGroup* pose, CrowdRates* rates) {
-  all_runs<true>(clip, places, pose, rates);
-}
+TWEENFALL_CROWD_VERSIONS(avx2, [[gnu::target("avx2")]])
+TWEENFALL_CROWD_VERSIONS(avx512, TWEENFALL_CROWD_AVX512)
 #endif
+#undef TWEENFALL_CROWD_VERSIONS
 
 }  // namespace
 
-const SampleKernels& plain_sample_kernels() {
-  static constexpr SampleKernels plain = {pose_plain, pose_and_rates_plain};
-  return plain;
+std::span<const SampleKernels* const> possible_sample_kernels() {
+#if defined(__x86_64__) || defined(__i386__)
+  static constexpr std::array all = {&plain_kernels, &avx2_kernels, &avx512_kernels};
+#else
+  static constexpr std::array all = {&plain_kernels};
+#endif
+  return std::span(all).first(possible_versions());
 }
 
 const SampleKernels& fastest_sample_kernels() {
-#if defined(__x86_64__) || defined(__i386__)
-  static constexpr SampleKernels avx2 = {pose_avx2, pose_and_rates_avx2};
-  if (__builtin_cpu_supports("avx2")) return avx2;
-#endif
-  return plain_sample_kernels();
+  static const SampleKernels& fastest = *possible_sample_kernels().back();
+  return fastest;
 }
 
 }  // namespace tweenfall::crowd

@@ -32,7 +32,9 @@ struct SampleKernels {
                          CrowdRates* rates);
 };
 
-[[nodiscard]] const SampleKernels& plain_sample_kernels();
+/// For all instruction sets that this processor has, the plainest first. All give the same bits.
+[[nodiscard]] std::span<const SampleKernels* const> possible_sample_kernels();
+/// The last of them.
 [[nodiscard]] const SampleKernels& fastest_sample_kernels();
 
 /// Samples all of a clip by given kernels. @param rates  null for none

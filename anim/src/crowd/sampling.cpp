@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "crowd/sample_kernels.h"
 
@@ -30,17 +31,22 @@ SegmentWeights segment_rates(bool cubic, const Timeline::Place& place) {
   return {{-end, end}, {(1 - u) * (1 - 3 * u), u * (3 * u - 2)}};
 }
 
+/// Of the rows around the knots whose weights are given.
 /// @param taps weights of the base's coefficients at the first knot, followed by those at the second; null for no base
-RowWeights row_weights(const double* of_knots, const float* taps) {
-  RowWeights weights{};
+void set_weights(RowWeights& weights, const double* of_knots, const float* taps) {
   const float first = static_cast<float>(of_knots[0]), second = static_cast<float>(of_knots[1]);
-  if (taps)
-    for (int i = 0; i < 4; ++i) weights.base[i] = first * taps[i] + second * taps[4 + i];
+  if (taps) {
+    using Four = float __attribute__((vector_size(16)));
+    Four at_first, at_second;
+    std::memcpy(&at_first, taps, sizeof at_first);
+    std::memcpy(&at_second, taps + 4, sizeof at_second);
+    const Four base = first * at_first + second * at_second;
+    std::memcpy(weights.base, &base, sizeof base);
+  }
   weights.fine[0] = first;
   weights.fine[1] = second;
   // For tangents, whose weights do not sum to 1.
   weights.sum = static_cast<float>(of_knots[0] + of_knots[1]);
-  return weights;
 }
 
 void set_place(RunPlace& at, const CompiledClip& clip, const Run& run, const Timeline::Place& place, bool with_rates) {
@@ -53,12 +59,12 @@ void set_place(RunPlace& at, const CompiledClip& clip, const Run& run, const Tim
   }
   at.fine = clip.words.data() + run.fine_begin + place.knot * run.fine_row;
   const SegmentWeights weights = segment_weights(form.cubic, place);
-  at.value = row_weights(weights.value, taps);
-  if (form.cubic) at.tangent = row_weights(weights.tangent, taps);
+  set_weights(at.value, weights.value, taps);
+  if (form.cubic) set_weights(at.tangent, weights.tangent, taps);
   if (!with_rates) return;
   const SegmentWeights moving = segment_rates(form.cubic, place);
-  at.value_rate = row_weights(moving.value, taps);
-  if (form.cubic) at.tangent_rate = row_weights(moving.tangent, taps);
+  set_weights(at.value_rate, moving.value, taps);
+  if (form.cubic) set_weights(at.tangent_rate, moving.tangent, taps);
 }
 
 /// Several runs are located first, so that their words are loaded from memory in parallel.
@@ -67,27 +73,34 @@ constexpr std::size_t at_once = 8;
 /// Finds the rows of a clip's runs at a time.
 class Locator {
  public:
+  Locator() = default;
   Locator(const CompiledClip& clip, double time, bool arriving)
-      : clip_(clip), time_(std::isnan(time) ? 0 : time), arriving_(arriving) {}  // NaN counts as 0
+      : clip_(&clip), time_(std::isnan(time) ? 0 : time), arriving_(arriving) {}  // NaN counts as 0
+
+  /// Finds the place on a timeline, for all runs that follow it.
+  void look_at(std::uint32_t timeline) {
+    timeline_ = timeline;
+    place_ = clip_->timelines[timeline].at(time_, arriving_);
+  }
 
   /// Locates the runs from `first` on, as many as are located at once. @param places  `at_once` of them
   std::span<const RunPlace> locate(std::size_t first, bool with_rates, RunPlace* places) {
-    const std::size_t count = std::min(at_once, clip_.runs.size() - first);
+    const std::size_t count = std::min(at_once, clip_->runs.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
-      const Run& run = clip_.runs[first + i];
+      const Run& run = clip_->runs[first + i];
       places[i].run = &run;
       places[i].base = places[i].fine = nullptr;
       if (run.form.timeline == Form::no_timeline) continue;
-      if (run.form.timeline != timeline_) place_ = clip_.timelines[timeline_ = run.form.timeline].at(time_, arriving_);
-      set_place(places[i], clip_, run, place_, with_rates);
+      if (run.form.timeline != timeline_) look_at(run.form.timeline);
+      set_place(places[i], *clip_, run, place_, with_rates);
     }
     return {places, count};
   }
 
  private:
-  const CompiledClip& clip_;
-  double time_;
-  bool arriving_;
+  const CompiledClip* clip_ = nullptr;
+  double time_ = 0;
+  bool arriving_ = false;
   std::uint32_t timeline_ = Form::no_timeline;
   Timeline::Place place_{};
 };
@@ -119,18 +132,21 @@ void sample_with(const SampleKernels& kernels, const CompiledClip& clip, double 
 
 void sample_many_with(const SampleKernels& kernels, const CompiledClip& clip, std::span<const ClipClock> clocks,
                       CrowdGroup* poses) noexcept {
-  // Locating several figures first lets their words be loaded from memory in parallel.
-  constexpr std::size_t figures = 4;
-  RunPlace places[figures][at_once];
+  // Each step from a time to a place in the timeline waits for the one before: those of several figures wait together.
+  constexpr std::size_t figures = 8;
   const std::size_t groups = crowd_groups(clip.joints);
+  const std::uint32_t timeline = clip.runs.empty() ? Form::no_timeline : clip.runs.front().form.timeline;
+  RunPlace places[at_once];
   for (std::size_t begin = 0; begin < clocks.size(); begin += figures) {
     const std::span<const ClipClock> some = clocks.subspan(begin, std::min(figures, clocks.size() - begin));
-    for (std::size_t first = 0; first < clip.runs.size(); first += at_once) {
-      std::span<const RunPlace> found[figures];
-      for (std::size_t i = 0; i < some.size(); ++i)
-        found[i] = Locator(clip, some[i].time, some[i].side == Side::in).locate(first, false, places[i]);
-      for (std::size_t i = 0; i < some.size(); ++i) kernels.pose(clip, found[i], poses + (begin + i) * groups);
+    Locator locators[figures];
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      locators[i] = Locator(clip, some[i].time, some[i].side == Side::in);
+      if (timeline != Form::no_timeline) locators[i].look_at(timeline);
     }
+    for (std::size_t i = 0; i < some.size(); ++i)
+      for (std::size_t first = 0; first < clip.runs.size(); first += at_once)
+        kernels.pose(clip, locators[i].locate(first, false, places), poses + (begin + i) * groups);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include "crowd/lanes.h"
 
+#include <array>
+
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace tweenfall::crowd {
@@ -170,29 +172,35 @@ TWEENFALL_CROWD_LANES void skin_all(const SkinWork& work) {
     work.normals ? skin_blocks<false, true>(work) : skin_blocks<false, false>(work);
 }
 
-// The same source for each instruction set. None of them has a fused multiply and add, so the bits are the same.
-void skin_plain(const SkinWork& work) {
-  skin_all(work);
-}
+// The same source for each instruction set. None of them fuses a multiplication and an addition, so the bits are the
+// same.
+#define TWEENFALL_CROWD_VERSIONS(name, target)    \
+  target void skin_##name(const SkinWork& work) { \
+    skin_all(work);                               \
+  }                                               \
+  constexpr SkinKernels name##_kernels = {skin_##name};
+
+TWEENFALL_CROWD_VERSIONS(plain, )
 #if defined(__x86_64__) || defined(__i386__)
-[[gnu::target("avx2")]] void skin_avx2(const SkinWork& work) {
-  skin_all(work);
-}
+TWEENFALL_CROWD_VERSIONS(avx2, [[gnu::target("avx2")]])
+TWEENFALL_CROWD_VERSIONS(avx512, TWEENFALL_CROWD_AVX512)
 #endif
+#undef TWEENFALL_CROWD_VERSIONS
 
 }  // namespace
 
-const SkinKernels& plain_skin_kernels() {
-  static constexpr SkinKernels plain = {skin_plain};
-  return plain;
+std::span<const SkinKernels* const> possible_skin_kernels() {
+#if defined(__x86_64__) || defined(__i386__)
+  static constexpr std::array all = {&plain_kernels, &avx2_kernels, &avx512_kernels};
+#else
+  static constexpr std::array all = {&plain_kernels};
+#endif
+  return std::span(all).first(possible_versions());
 }
 
 const SkinKernels& fastest_skin_kernels() {
-#if defined(__x86_64__) || defined(__i386__)
-  static constexpr SkinKernels avx2 = {skin_avx2};
-  if (__builtin_cpu_supports("avx2")) return avx2;
-#endif
-  return plain_skin_kernels();
+  static const SkinKernels& fastest = *possible_skin_kernels().back();
+  return fastest;
 }
 
 }  // namespace tweenfall::crowd

@@ -4,6 +4,8 @@
 
 #include <tweenfall/anim/crowd_skin.h>
 
+#include <span>
+
 namespace tweenfall::crowd {
 
 /// What a kernel reads and writes; all positions are relative to the first vertex of a block.
@@ -22,7 +24,9 @@ struct SkinKernels {
   void (*skin)(const SkinWork& work);
 };
 
-[[nodiscard]] const SkinKernels& plain_skin_kernels();
+/// For all instruction sets that this processor has, the plainest first. All give the same bits.
+[[nodiscard]] std::span<const SkinKernels* const> possible_skin_kernels();
+/// The last of them.
 [[nodiscard]] const SkinKernels& fastest_skin_kernels();
 
 }  // namespace tweenfall::crowd

@@ -170,7 +170,8 @@ TEST_CASE("a crowd's joints are where the exact path has them") {
 
 TEST_CASE("what is done with a crowd's poses has the same bits by the wide and by the plain kernels") {
   Random random(5);
-  const crowd::PoseKernels &wide = crowd::fastest_pose_kernels(), &plain = crowd::plain_pose_kernels();
+  const auto all = crowd::possible_pose_kernels();
+  const crowd::PoseKernels& plain = *all.front();
   const std::size_t size = 67;
   const auto a = random_pose(random, size), b = random_pose(random, size), c = random_pose(random, size);
   std::vector<float> mask(a.size() * CrowdGroup::size);
@@ -178,29 +179,31 @@ TEST_CASE("what is done with a crowd's poses has the same bits by the wide and b
   std::vector<CrowdGroup> one(a.size()), other(a.size());
   const std::vector<std::vector<CrowdLayer>> blends{
       {{a, 0.3F}, {b, 0.9F}}, {{a, 0.3F}, {b, 0.2F}, {c, 7}}, {{a, 0.3F, mask}, {b, 0.2F}, {c, 1, mask}}};
-  for (const auto& layers : blends) {
-    crowd::blend_with(wide, layers, one);
-    crowd::blend_with(plain, layers, other);
-    CHECK(equal_bytes(one, other));
-  }
-  crowd::add_with(wide, a, b, 0.4F, one, mask);
-  crowd::add_with(plain, a, b, 0.4F, other, mask);
-  CHECK(equal_bytes(one, other));
-  wide.difference(a.data(), b.data(), one.size(), one.data());
-  plain.difference(a.data(), b.data(), other.size(), other.data());
-  CHECK(equal_bytes(one, other));
   std::vector<CrowdMatrix> matrices(size), others(size);
-  wide.place(a.data(), size, matrices.data());
-  plain.place(a.data(), size, others.data());
-  CHECK(equal_bytes(matrices, others));
   std::vector<std::uint32_t> order(size), parents(size);
   for (std::uint32_t i = 0; i < size; ++i) {
     order[i] = i;
     parents[i] = i == 0 ? 0xffffffffU : i / 2;
   }
-  wide.compose(order.data(), parents.data(), size, {}, matrices.data());
-  plain.compose(order.data(), parents.data(), size, {}, others.data());
-  CHECK(equal_bytes(matrices, others));
+  for (const crowd::PoseKernels* kernels : all) {
+    for (const auto& layers : blends) {
+      crowd::blend_with(*kernels, layers, one);
+      crowd::blend_with(plain, layers, other);
+      CHECK(equal_bytes(one, other));
+    }
+    crowd::add_with(*kernels, a, b, 0.4F, one, mask);
+    crowd::add_with(plain, a, b, 0.4F, other, mask);
+    CHECK(equal_bytes(one, other));
+    kernels->difference(a.data(), b.data(), one.size(), one.data());
+    plain.difference(a.data(), b.data(), other.size(), other.data());
+    CHECK(equal_bytes(one, other));
+    kernels->place(a.data(), size, matrices.data());
+    plain.place(a.data(), size, others.data());
+    CHECK(equal_bytes(matrices, others));
+    kernels->compose(order.data(), parents.data(), size, {}, matrices.data());
+    plain.compose(order.data(), parents.data(), size, {}, others.data());
+    CHECK(equal_bytes(matrices, others));
+  }
 }
 
 TEST_CASE("a crowd on many threads has the bits of a crowd on one, and asks for no memory") {

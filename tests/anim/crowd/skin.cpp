@@ -118,9 +118,11 @@ TEST_CASE("a mesh is skinned to the same bits whole and in parts, by the wide an
     };
     CHECK(same(whole, parts));
     CHECK(same(whole_normals, part_normals));
-    mesh.skin_with(crowd::plain_skin_kernels(), palette, parts, part_normals);
-    CHECK(same(whole, parts));
-    CHECK(same(whole_normals, part_normals));
+    for (const crowd::SkinKernels* kernels : crowd::possible_skin_kernels()) {
+      mesh.skin_with(*kernels, palette, parts, part_normals);
+      CHECK(same(whole, parts));
+      CHECK(same(whole_normals, part_normals));
+    }
   }
 }
 
