@@ -4,6 +4,7 @@
 
 #include <tweenfall/curves/keys.h>
 
+#include <cstdint>
 #include <utility>
 
 namespace tweenfall {
@@ -133,6 +134,13 @@ struct Running {
   }
 };
 
+/// As std::floor, without a call where the processor's own instruction for it cannot be assumed.
+double whole_part(double value) noexcept {
+  if (!(std::abs(value) < 0x1p51)) return std::floor(value);
+  const double cut = static_cast<double>(static_cast<std::int64_t>(value));
+  return cut > value ? cut - 1 : cut;
+}
+
 /// @param pace_at gives the speed while it runs
 template <class PaceAt>
 ClipClock clock_of(const Rounds& rounds, const Running& at, Side side, const PaceAt& pace_at) noexcept {
@@ -151,7 +159,7 @@ ClipClock clock_of(const Rounds& rounds, const Running& at, Side side, const Pac
   double inside = at_phase;
   bool flip = rounds.reverse;
   if (rounds.loops()) {
-    double round = std::floor(at_phase / rounds.length);
+    double round = whole_part(at_phase / rounds.length);
     const bool at_seam = at_phase == round * rounds.length;
     const bool at_very_end = finite && at_phase >= rounds.total;
     const bool arriving = from_below && running && (round > -rounds.left_out || !finite);

@@ -8,7 +8,8 @@ namespace tweenfall::crowd {
 
 namespace {
 
-/// The share of the whole cost that an additional run has to save.
+/// The share of the whole cost that an additional run has to save; where time counts also the cost of one channel, for
+/// sampling a run takes as much longer.
 constexpr double worth_a_run = 0.03;
 constexpr double impossible = std::numeric_limits<double>::infinity();
 
@@ -32,13 +33,14 @@ double best_ways(const std::vector<std::vector<Way>>& choices, const std::map<Fo
 
 }  // namespace
 
-std::vector<Form> chosen(const std::vector<std::vector<Way>>& choices) {
+std::vector<Form> chosen(const std::vector<std::vector<Way>>& choices, bool smallest) {
   std::map<Form, bool> left;
   for (const std::vector<Way>& ways_of_one : choices)
     for (const Way& way : ways_of_one) left[way.form] = true;
   std::vector<Form> forms(choices.size());
   double cost = best_ways(choices, left, nullptr, nullptr);
-  const double worth = worth_a_run * cost;
+  const double of_time = smallest ? 0 : 1 / static_cast<double>(choices.size());
+  const double worth = cost * std::max(worth_a_run, of_time);
   // Gives up one form after the other, as long as that costs less than a run may.
   while (true) {
     const Form* cheapest = nullptr;

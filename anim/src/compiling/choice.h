@@ -9,6 +9,7 @@
 namespace tweenfall::crowd {
 
 /// One form for each channel, from its ways. An additional run is worthwhile if it saves some share of the whole cost.
-[[nodiscard]] std::vector<Form> chosen(const std::vector<std::vector<Way>>& choices);
+/// @param smallest  size alone counts
+[[nodiscard]] std::vector<Form> chosen(const std::vector<std::vector<Way>>& choices, bool smallest);
 
 }  // namespace tweenfall::crowd

@@ -164,7 +164,7 @@ class Assembly {
       }
       for (Way& way : of_channel) way.form.timeline = number;
     }
-    std::vector<Form> forms = chosen(choices);
+    std::vector<Form> forms = chosen(choices, settings_.smallest);
     for (Made& made : made_)
       if (made.forms == forms) return made;
     std::shared_ptr<CompiledClip> clip = filled(forms, owners);
