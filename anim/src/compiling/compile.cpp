@@ -217,7 +217,8 @@ class Search {
   Search(const ExactPose& exact, const CurveKnots& knots, const std::vector<FittedChannel>& fits, const Reach& reach,
          const CrowdSettings& settings)
       : tolerance_(settings.tolerance),
-        measuring_(exact, settings.arm, instants_of(fits, knots, exact.duration())),
+        measuring_(exact, settings.arm, reach.rounding, settings.rounds - 1,
+                   instants_of(fits, knots, exact.duration())),
         assembly_(exact, fits, reach, settings) {}
 
   /// @param error  written: that of what is returned, or else of the nearest
@@ -231,9 +232,9 @@ class Search {
       share = coarsest_from(share);
       if (share == 0) return nullptr;
       Assembly::Made& made = assembly_.made(share);
-      error = measuring_.at_all(*made.clip, made.at_some, allowed());
-      if (error.distance <= allowed()) {
-        made.clip->error = error.distance;
+      error = measuring_.at_all(*made.clip, tolerance_);
+      if (error.distance <= tolerance_) {
+        made.clip->errors = error.errors;
         return made.clip;
       }
     }
@@ -243,14 +244,11 @@ class Search {
  private:
   static constexpr double first_share = 0.4, finest_share = 1e-4;  // of the tolerance
 
-  /// The error at times between the measured ones is hardly larger.
-  [[nodiscard]] double allowed() const { return 0.97 * tolerance_; }
-
   [[nodiscard]] bool holds(double share, LargestError& error) {
     Assembly::Made& made = assembly_.made(share);
     measuring_.at_some(*made.clip, made.at_some, made.measured);
     error = made.at_some;
-    return error.distance <= allowed();
+    return error.distance <= tolerance_;
   }
 
   /// The largest share that holds at some instants, sought from another on; 0 for none.
@@ -262,10 +260,10 @@ class Search {
         good = share;
         if (assembly_.made(share).clip->timelines.empty()) break;
         share = bad > 0 ? std::sqrt(share * bad)
-                        : share * std::clamp(0.9 * allowed() / std::max(error.distance, 1e-300), 1.2, 4.0);
+                        : share * std::clamp(0.9 * tolerance_ / std::max(error.distance, 1e-300), 1.2, 4.0);
       } else {
         bad = share;
-        share = good > 0 ? std::sqrt(share * good) : share * std::clamp(0.9 * allowed() / error.distance, 0.1, 0.8);
+        share = good > 0 ? std::sqrt(share * good) : share * std::clamp(0.9 * tolerance_ / error.distance, 0.1, 0.8);
       }
       if (good > 0 && bad > 0 && bad < 1.05 * good) break;
     }
@@ -285,6 +283,8 @@ void check(const Clip& clip, const CrowdSettings& settings) {
           "the tolerance of a crowd must be > 0 and finite; it is " + number_text(settings.tolerance) + " m");
   require(settings.arm >= 0 && std::isfinite(settings.arm),
           "the arm of a crowd's joints must be >= 0 and finite; it is " + number_text(settings.arm) + " m");
+  require(settings.rounds >= 1,
+          "a crowd must keep its tolerance for 1 round or more; it is told " + std::to_string(settings.rounds));
   require(clip.duration >= 0 && std::isfinite(clip.duration),
           "clip \"" + clip.name + "\" cannot be compiled for a crowd, for it has no end: its duration is " +
               number_text(clip.duration) + " s");
@@ -297,8 +297,8 @@ CrowdClip compile(const Clip& clip, const Hierarchy& nodes, const CrowdSettings&
   using namespace crowd;
   check(clip, settings);
   const ExactPose exact(clip, nodes);
-  const Reach reach = reach_of(exact, settings.arm);
-  LargestError nearest{std::numeric_limits<double>::infinity()};
+  const Reach reach = reach_of(exact, settings.arm, settings.rounds - 1);
+  LargestError nearest{.distance = std::numeric_limits<double>::infinity()};
   const auto is_fine = [&] { return nearest.distance < 100 * float_resolution * reach.extent; };
   double look = longest_look;
   for (double share = 0.3 * settings.tolerance; share > 1e-3 * settings.tolerance;) {
@@ -311,9 +311,11 @@ CrowdClip compile(const Clip& clip, const Hierarchy& nodes, const CrowdSettings&
     // As much finer as the error was too large, and a little.
     share *= std::clamp(0.7 * settings.tolerance / error.distance, 0.2, 0.5);
   }
+  const bool all_rounds = settings.rounds > 1 && clip.loop.mode == LoopMode::repeat_offset;
   throw std::invalid_argument("clip \"" + clip.name + "\" cannot be kept within " + number_text(settings.tolerance) +
-                              " m" + (is_fine() ? " in float" : "") + "; the nearest is " +
-                              number_text(nearest.distance) + " m, at " + number_text(nearest.time) + " s" +
+                              " m" + (all_rounds ? " for " + std::to_string(settings.rounds) + " rounds" : "") +
+                              (is_fine() ? " in float" : "") + "; the nearest is " + number_text(nearest.distance) +
+                              " m, at " + number_text(nearest.time) + " s" +
                               (is_fine() ? "" : ", where it changes faster than can be found"));
 }
 

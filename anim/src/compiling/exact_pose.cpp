@@ -44,9 +44,13 @@ Motion ExactPose::joint(std::size_t node, Kind kind, double time, Side side) con
   return motion;
 }
 
-void ExactPose::sample(double time, Side side, std::span<Motion> local) const {
+void ExactPose::sample(double time, Side side, std::span<Motion> local, int round) const {
   for (std::size_t node = 0; node < nodes_.size(); ++node) local[node] = {.pose = nodes_[node].rest};
-  bound_.sample(nodes_, clock(time, side), local);
+  ClipClock at = clock(time, side);
+  at.cycle = round;
+  at.climbs = clip_.loop.mode == LoopMode::repeat_offset;
+  at.to = clip_.duration;
+  bound_.sample(nodes_, at, local);
 }
 
 }  // namespace tweenfall::crowd

@@ -36,8 +36,8 @@ class ExactPose {
 
   /// One joint at a time of the clip; only what is of that kind is moved.
   [[nodiscard]] Motion joint(std::size_t node, Kind kind, double time, Side side) const;
-  /// All of them. @param local  written, one for each node
-  void sample(double time, Side side, std::span<Motion> local) const;
+  /// All of them. @param local  written, one for each node  @param round  of a loop with offset
+  void sample(double time, Side side, std::span<Motion> local, int round = 0) const;
 
  private:
   [[nodiscard]] ClipClock clock(double time, Side side) const;

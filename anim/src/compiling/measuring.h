@@ -23,31 +23,38 @@ struct Instant {
                                                     std::vector<double> bends, double duration);
 
 struct LargestError {
-  double distance = 0;  ///< of a point of the figure from its place on the exact path, m
-  double time = 0;      ///< s
+  RoundErrors errors;   ///< bounds, over some instants
+  double distance = 0;  ///< the largest that matters, m
+  double time = 0;      ///< when it is about as large, s
 };
 
-/// Measures clips at given instants: at some of them while forms are still sought, then at all. Those at which one then
-/// turns out to be too far off belong to the some from then on.
+/// Measures clips at given instants: at some of them while forms are still sought, then at all, and where errors are
+/// large also in between. Those at which one then turns out to be too far off belong to the some from then on.
 class Measuring {
  public:
-  /// @param arm  as in `CrowdSettings`
-  Measuring(const ExactPose& exact, double arm, std::vector<Instant> instants);
+  /// @param arm         as in `CrowdSettings`
+  /// @param rounding    as from `reach_of`, m
+  /// @param last_round  errors of this round matter, and of those before it; 0 for the first
+  Measuring(const ExactPose& exact, double arm, double rounding, int last_round, std::vector<Instant> instants);
 
   /// @param known     largest error of that clip so far; written
   /// @param measured  at how many of some that was; written
   void at_some(const CompiledClip& clip, LargestError& known, std::size_t& measured) const;
-  /// @param known  largest error of that clip at some
-  /// @return the largest error of all, if it is at most `allowed`; else a larger one, and there are more of some
-  [[nodiscard]] LargestError at_all(const CompiledClip& clip, const LargestError& known, double allowed);
+  /// @return the largest error at any time, if it is at most `allowed`; else a larger one, and there are more of some
+  [[nodiscard]] LargestError at_all(const CompiledClip& clip, double allowed);
 
  private:
+  class Comparison;
+  class Whole;
+
   void add(const Instant& instant);
+  void include(LargestError& largest, const RoundErrors& errors, double time) const;
 
   const ExactPose& exact_;
-  double arm_;
+  double arm_, rounding_;
+  int last_round_;
   std::vector<Instant> instants_, some_;
-  std::vector<WorldFrame> frames_;  // of the exact path at the first of some, as long as there is room
+  std::vector<Pose> poses_;  // of the joints on the exact path at the first of some, as long as there is room
 };
 
 }  // namespace tweenfall::crowd

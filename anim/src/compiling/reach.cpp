@@ -33,14 +33,14 @@ void look_at(const ExactPose& exact, double arm, std::span<const WorldFrame> wor
 
 }  // namespace
 
-Reach reach_of(const ExactPose& exact, double arm) {
+Reach reach_of(const ExactPose& exact, double arm, int last_round) {
   const std::size_t count = exact.nodes().size();
   Reach reach{std::vector<Reach::OfJoint>(count)};
   std::vector<Motion> local(count);
   std::vector<WorldFrame> world(count);
   std::vector<double> least_scale(count, std::numeric_limits<double>::infinity());
-  for (int i = 0; i <= looks; ++i) {
-    exact.sample(exact.duration() * i / looks, Side::out, local);
+  for (int i = 0; i < (last_round > 0 ? 2 : 1) * (looks + 1); ++i) {
+    exact.sample(exact.duration() * (i % (looks + 1)) / looks, Side::out, local, i <= looks ? 0 : last_round);
     exact.nodes().world_frames(local, world);
     look_at(exact, arm, world, reach);
     for (std::size_t node = 0; node < count; ++node) {
@@ -51,10 +51,17 @@ Reach reach_of(const ExactPose& exact, double arm) {
       largest[2] = std::max(largest[2], pose.scale.cwiseAbs().maxCoeff());
     }
   }
+  std::vector<double> rounding(count);  // squared
   for (std::size_t node = 0; node < count; ++node) {
     Reach::OfJoint& of = reach.joints[node];
     of.farthest = std::max(of.farthest, least_reach);
     of.farthest_unscaled = of.farthest / std::clamp(least_scale[node], 1e-2, 1e6);
+    // Those of many joints hardly ever add up.
+    const double place = place_rounding * of.stretch * of.largest[0], turn = axes_rounding * of.farthest;
+    rounding[node] = place * place + turn * turn;
+    const std::size_t parent = exact.nodes()[node].parent;
+    if (parent != no_node) rounding[node] += rounding[parent];
+    reach.rounding = std::max(reach.rounding, std::sqrt(rounding[node]));
   }
   return reach;
 }

@@ -16,9 +16,11 @@ struct Reach {
     double largest[3] = {0, 1, 0};  ///< magnitude of a number of each kind
   };
   std::vector<OfJoint> joints;
-  double extent = 0;  ///< of the figure and its way: the farthest that a joint comes from the origin along an axis, m
+  double rounding = 0;  ///< how far the roundings of floats, on the way to a point, may well take it, m
+  double extent = 0;    ///< of the figure and its way: the farthest that a joint comes from the origin along an axis, m
 };
 
-[[nodiscard]] Reach reach_of(const ExactPose& exact, double arm);
+/// @param last_round  the last one of a loop with offset that counts; 0 for the first
+[[nodiscard]] Reach reach_of(const ExactPose& exact, double arm, int last_round);
 
 }  // namespace tweenfall::crowd

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view signature = "tweenfall crowd\n";
 /// Raised whenever the contents change, so that older bytes are refused and not misread.
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr std::size_t header_size = signature.size() + 4 + 8 + 8;
 constexpr std::uint32_t largest_stride = 64;
 constexpr std::uint32_t most_joints = 1U << 30;
@@ -111,7 +111,7 @@ void write(Writer& to, const CompiledClip& clip) {
   to.number(clip.duration);
   to.number(static_cast<std::uint8_t>(clip.loop.mode));
   to.number(clip.loop.count);
-  to.number(clip.error);
+  for (const double error : {clip.errors.first, clip.errors.later, clip.errors.growth}) to.number(error);
   to.count(clip.timelines.size());
   for (const Timeline& timeline : clip.timelines) {
     to.count(timeline.knots.size());
@@ -285,8 +285,11 @@ void read(Reader& from, CompiledClip& clip) {
   from.require(mode <= static_cast<std::uint8_t>(LoopMode::pingpong), "there is no such loop");
   clip.loop.mode = static_cast<LoopMode>(mode);
   clip.loop.count = from.finite();
-  clip.error = from.finite();
-  from.require(clip.duration >= 0 && clip.loop.count >= 0 && clip.error >= 0, "a number must not be negative");
+  from.require(clip.duration >= 0 && clip.loop.count >= 0, "a number must not be negative");
+  for (double* const error : {&clip.errors.first, &clip.errors.later, &clip.errors.growth}) {
+    *error = from.finite();
+    from.require(*error >= 0, "a number must not be negative");
+  }
   const std::size_t timelines = from.count(4);
   for (std::size_t i = 0; i < timelines; ++i) read_timeline(from, clip.timelines.emplace_back());
 
@@ -321,7 +324,7 @@ std::vector<std::byte> CrowdClip::to_bytes() const {
 
 std::size_t CrowdClip::byte_count() const noexcept {
   const crowd::CompiledClip& clip = *compiled_;
-  std::size_t bytes = crowd::header_size + 4 + 8 + 1 + 8 + 8 + 4 + 4 + 4;
+  std::size_t bytes = crowd::header_size + 4 + 8 + 1 + 8 + 24 + 4 + 4 + 4;
   for (const crowd::Timeline& timeline : clip.timelines) bytes += 4 + 8 * timeline.knots.size();
   return bytes + 15 * clip.runs.size() + 5 * clip.channels.size() + 4 * (clip.numbers.size() + clip.words.size()) +
          52 * clip.climbs.size();

@@ -15,8 +15,9 @@
 
 #include "clip/life.h"
 
+#include <algorithm>
+#include <cmath>
 #include <compare>
-
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -168,11 +169,27 @@ struct Climb {
   double turn[3] = {0, 0, 0};  ///< rotation vector, per round
 };
 
+/// How far roundings to float take a place, relative to its distance, and how far axes of length 1.
+inline constexpr double place_rounding = 0x1p-24, axes_rounding = 3 * place_rounding;
+
+/// How far points of the figure are from the exact path at most, m.
+struct RoundErrors {
+  double first = 0;              ///< in the first round
+  double later = 0, growth = 0;  ///< in the k-th before or after it: `later` + k `growth`
+
+  [[nodiscard]] double in(int round) const { return round == 0 ? first : later + std::abs(1.0 * round) * growth; }
+  void include(const RoundErrors& other) {
+    first = std::max(first, other.first);
+    later = std::max(later, other.later);
+    growth = std::max(growth, other.growth);
+  }
+};
+
 struct CompiledClip {
   std::uint32_t joints = 0;
   double duration = 0;  ///< s
   Loop loop;
-  double error = 0;  ///< m
+  RoundErrors errors;
   std::vector<Timeline> timelines;
   std::vector<Run> runs;
   std::vector<Channel> channels;  ///< each kind of each group once
