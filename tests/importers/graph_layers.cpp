@@ -95,3 +95,17 @@ TEST_CASE("what a machine's transitions say stays within the picture, however lo
     CHECK(labels == count);
   }
 }
+
+TEST_CASE("long names and words stand whole in a graph's picture, and boxes get wider for them alone") {
+  const auto picture = [](const std::string& clip, const std::string& pose) {
+    const GraphDescription graph{.name = "figure", .poses = {{pose, ClipPose{.clip = clip}}}};
+    return graph_svg({&graph, 1});
+  };
+  const std::string clip = "walk forward and wave", pose = "walking over the whole of the hill";
+  const std::string wide = picture(clip, pose), usual = picture("walk", "walking");
+  for (const std::string& words : {clip, pose}) CHECK_MESSAGE(wide.find(">" + words + "<") != std::string::npos, words);
+  const auto width = [](const std::string& svg) { return std::stod(svg.substr(svg.find(" width=\"") + 8)); };
+  CHECK(width(wide) > width(usual));
+  CHECK(width(picture("run", "running")) == width(usual));
+  CHECK(width(picture("walk", std::string(500, 'w'))) < width(usual) + 300);
+}

@@ -13,6 +13,9 @@ constexpr const char* box_ink = "#24292f";
 constexpr const char* box_pale = "#57606a";
 constexpr const char* arrow_line = "#8c959f";
 
+/// How much wider a bold name is than usual text, and the small words below it; and what a box has beside them, px.
+constexpr double bolder = 1.3, smaller = 0.9, beside_words = 12;
+
 constexpr int points_on_arrow = 80;
 
 }  // namespace
@@ -27,6 +30,10 @@ Vec2 Rectangle::border_toward(const Vec2& point) const {
 
 Rectangle around(const Vec2& center, double width, double height) {
   return {center.x() - width / 2, center.y() - height / 2, center.x() + width / 2, center.y() + height / 2};
+}
+
+double box_width_of(const std::string& name, const std::string& words) {
+  return std::ceil(std::max(bolder * text_width(name), smaller * text_width(words)) + 0.5) + beside_words;
 }
 
 void draw_box(SvgWriter& svg, const Rectangle& box, const std::string& name, const std::string& words,
@@ -48,11 +55,11 @@ void draw_box(SvgWriter& svg, const Rectangle& box, const std::string& name, con
             {"text-anchor", "middle"},
             {"font-weight", "600"},
             {"fill", box_ink}},
-           shortened(name, (width - 12) / 1.3));
+           shortened(name, (width - beside_words) / bolder));
   if (!words.empty())
     svg.text("text",
              {{"x", px(x)}, {"y", px(y + 13)}, {"text-anchor", "middle"}, {"font-size", "10.5"}, {"fill", box_pale}},
-             shortened(words, width - 12));
+             shortened(words, (width - beside_words) / smaller));
   svg.close();
 }
 

@@ -24,6 +24,9 @@ struct Rectangle {
 
 [[nodiscard]] Rectangle around(const Vec2& center, double width, double height);
 
+/// How wide a box has to be to hold all of its words, px.
+[[nodiscard]] double box_width_of(const std::string& name, const std::string& words);
+
 struct BoxStyle {
   std::string fill, stroke;
   double round = 6;

@@ -8,7 +8,9 @@ namespace tweenfall::plotting {
 
 namespace {
 
-constexpr double tree_box_width = 150, tree_box_height = 40, tree_column = 310, tree_gap = 12;  // px
+/// Boxes of a column are as wide as the longest of their words needs, between these; px.
+constexpr double narrowest_box = 150, widest_box = 340;
+constexpr double tree_box_height = 40, between_columns = 160, tree_gap = 12;  // px
 /// Of a wire before the box to which it comes, where its words stand on it; and from one such wire to the next, px.
 constexpr double port_length = 92, port_spacing = 14;
 
@@ -48,10 +50,19 @@ PoseTree::PoseTree(const GraphDescription& graph) {
     columns.push_back(things_[i].column);
     things_[i].height = std::max(tree_box_height, port_spacing * static_cast<double>(ports + 1));
     heights.push_back(things_[i].height + tree_gap);
-    width_ = std::max(width_, static_cast<double>(things_[i].column) * tree_column + tree_box_width);
   }
   layers_.emplace(columns, heights, std::move(wires));
   height_ = layers_->height();
+  things_[output_].words += ", shows";
+  for (const Thing& thing : things_) {
+    if (columns_.size() <= thing.column) columns_.resize(thing.column + 1, {0, narrowest_box});
+    double& width = columns_[thing.column].width;
+    width = std::max(width, std::min(box_width_of(thing.name, thing.words), widest_box));
+  }
+  for (Column& column : columns_) {
+    column.left = width_ > 0 ? width_ + between_columns : 0;
+    width_ = column.left + column.width;
+  }
 }
 
 std::size_t PoseTree::thing_of(const GraphOperand& operand) const {
@@ -78,8 +89,9 @@ std::size_t PoseTree::place(std::size_t index) {
 }
 
 Rectangle PoseTree::box(std::size_t thing, double left, double top) const {
-  const double x = left + static_cast<double>(things_[thing].column) * tree_column;
-  return around({x + tree_box_width / 2, top + layers_->middle_of(thing)}, tree_box_width, things_[thing].height);
+  const Column& column = columns_[things_[thing].column];
+  return around({left + column.left + column.width / 2, top + layers_->middle_of(thing)}, column.width,
+                things_[thing].height);
 }
 
 // Straight through the columns that it skips, bent between them, and straight again where its words stand on it.
@@ -93,11 +105,11 @@ void PoseTree::draw_wire(SvgWriter& svg, std::size_t wire, double end_y, double 
     path += " C" + px(at.x() + bend, at.y()) + " " + px(next.x() - bend, next.y()) + " " + px(next.x(), next.y());
     at = next;
   };
-  double column = start.left;
+  std::size_t column = things_[from].column;
   for (const double lane : layers_->lanes_of(wire)) {
-    column += tree_column;
-    bend_to({column - port_length, top + lane});
-    at.x() = column + tree_box_width;
+    const Column& skipped = columns_[++column];
+    bend_to({left + skipped.left - port_length, top + lane});
+    at.x() = left + skipped.left + skipped.width;
     path += " L" + px(at.x(), at.y());
   }
   bend_to({end.left - port_length, end_y});
@@ -123,7 +135,7 @@ void PoseTree::draw(SvgWriter& svg, double left, double top) const {
     const BoxStyle style = thing.is_clip
                                ? BoxStyle{"#ddf4ff", "#54aeff", 6, false}
                                : BoxStyle{shows ? "#fff8c5" : "#f6f8fa", shows ? "#bf8700" : "#8c959f", 6, shows};
-    draw_box(svg, box(i, left, top), thing.name, shows ? thing.words + ", shows" : thing.words, style);
+    draw_box(svg, box(i, left, top), thing.name, thing.words, style);
   }
 }
 

@@ -22,6 +22,9 @@ class PoseTree {
   void draw(SvgWriter& svg, double left, double top) const;
 
  private:
+  struct Column {
+    double left, width;  // px
+  };
   struct Thing {
     std::string name, words;
     std::vector<GraphOperand> operands;
@@ -39,6 +42,7 @@ class PoseTree {
   [[nodiscard]] Rectangle box(std::size_t thing, double left, double top) const;
   void draw_wire(SvgWriter& svg, std::size_t wire, double end_y, double left, double top) const;
 
+  std::vector<Column> columns_;
   std::vector<Thing> things_;
   std::size_t output_ = 0;
   std::vector<Wire> wires_;
