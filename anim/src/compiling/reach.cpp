@@ -9,7 +9,8 @@ namespace tweenfall::crowd {
 namespace {
 
 constexpr int looks = 48;
-constexpr double least_reach = 1e-6;  // m; anything nearer to its joint cannot be seen
+constexpr double least_reach = 1e-9;   // m; anything nearer to its joint cannot be seen
+constexpr double least_factor = 1e-9;  // of lengths; what is made smaller cannot be seen, either
 
 double longest_column(const Mat3& linear) {
   return std::max({linear.col(0).norm(), linear.col(1).norm(), linear.col(2).norm()});
@@ -25,9 +26,9 @@ void look_at(const ExactPose& exact, double arm, std::span<const WorldFrame> wor
       Reach::OfJoint& of = reach.joints[above];
       of.farthest = std::max(of.farthest, (world[node].origin - world[above].origin).norm() + tip);
     }
-    if (nodes[node].parent != no_node)
-      reach.joints[node].stretch =
-          std::max(reach.joints[node].stretch, longest_column(world[nodes[node].parent].linear));
+    const std::size_t parent = nodes[node].parent;
+    const double stretch = parent == no_node ? 1 : longest_column(world[parent].linear);
+    reach.joints[node].stretch = std::max({reach.joints[node].stretch, stretch, least_factor});
   }
 }
 
@@ -55,7 +56,7 @@ Reach reach_of(const ExactPose& exact, double arm, int last_round) {
   for (std::size_t node = 0; node < count; ++node) {
     Reach::OfJoint& of = reach.joints[node];
     of.farthest = std::max(of.farthest, least_reach);
-    of.farthest_unscaled = of.farthest / std::clamp(least_scale[node], 1e-2, 1e6);
+    of.farthest_unscaled = of.farthest / std::max({least_scale[node], 1e-2 * of.largest[2], least_factor});
     // Those of many joints hardly ever add up.
     const double place = place_rounding * of.stretch * of.largest[0], turn = axes_rounding * of.farthest;
     rounding[node] = place * place + turn * turn;

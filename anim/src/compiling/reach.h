@@ -10,7 +10,7 @@ namespace tweenfall::crowd {
 
 struct Reach {
   struct OfJoint {
-    double stretch = 1;             ///< factor for lengths below the joint's parent, from the scales above
+    double stretch = 0;             ///< factor for lengths below the joint's parent, from the scales above
     double farthest = 0;            ///< from the joint to any point attached below it, m
     double farthest_unscaled = 0;   ///< the same without the joint's own scale
     double largest[3] = {0, 1, 0};  ///< magnitude of a number of each kind
