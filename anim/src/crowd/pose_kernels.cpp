@@ -60,7 +60,7 @@ TWEENFALL_CROWD_LANES void blend_groups(const CrowdLayer* layers, std::size_t la
   const auto share_of = [&](std::size_t layer) {
     return known > 0 ? shares[layer] : splat(layers[layer].weight * portion);
   };
-  const auto counts = [&](std::size_t layer) { return known > 0 || layers[layer].weight > 0; };
+  const auto counts = [&](std::size_t layer) { return known > 0 || layers[layer].weight > least_weight; };
   for (std::size_t g = 0; g < groups; ++g) {
     // Rotations separately: together with the rest there would be more numbers than registers.
     Lanes first[4], turned[4];
@@ -93,7 +93,8 @@ TWEENFALL_CROWD_LANES void blend_groups(const CrowdLayer* layers, std::size_t la
 TWEENFALL_CROWD_LANES void blend_all(const CrowdLayer* layers, std::size_t layer_count, float portion,
                                      std::size_t groups, CrowdGroup* out) {
   bool all_count = true;
-  for (std::size_t layer = 0; layer < layer_count; ++layer) all_count = all_count && layers[layer].weight > 0;
+  for (std::size_t layer = 0; layer < layer_count; ++layer)
+    all_count = all_count && layers[layer].weight > least_weight;
   if (all_count && layer_count == 2) return blend_groups<2>(layers, layer_count, portion, groups, out);
   if (all_count && layer_count == 3) return blend_groups<3>(layers, layer_count, portion, groups, out);
   if (all_count && layer_count == 4) return blend_groups<4>(layers, layer_count, portion, groups, out);
@@ -116,7 +117,7 @@ TWEENFALL_CROWD_LANES void blend_masked_groups(const CrowdLayer* layers, std::si
       const CrowdGroup& pose = layers[layer].pose[g];
       Lanes share = splat(layers[layer].weight);
       if (!layers[layer].mask.empty()) share = share * load(layers[layer].mask.data() + g * lane_count);
-      const Words counts = share > zero;
+      const Words counts = share > all(least_weight);
       share = select(counts, share, zero);
       has_more = has_more | (has_one & counts);
       Lanes part[row_count];
@@ -131,10 +132,7 @@ TWEENFALL_CROWD_LANES void blend_masked_groups(const CrowdLayer* layers, std::si
       total = total + share;
     }
     const Lanes portion = all(1) / select(has_one, total, all(1));
-    for (std::size_t c = 0; c < 3; ++c) {
-      sum[c] = sum[c] * portion;
-      sum[first_scale + c] = sum[first_scale + c] * portion;
-    }
+    for (std::size_t i = 0; i < row_count; ++i) sum[i] = sum[i] * portion;
     normalize(sum + first_turn, first);
     for (std::size_t i = 0; i < row_count; ++i) store(row(out[g], i), select(has_more, sum[i], alone[i]));
   }

@@ -8,6 +8,9 @@
 
 namespace tweenfall::crowd {
 
+/// Weights up to this count as none, for floats do not hold the inverse of the smallest.
+inline constexpr float least_weight = 1e-30F;
+
 struct PoseKernels {
   /// Layers without masks, the first of which has a weight. @param portion factor that makes the weights sum to 1
   void (*blend)(const CrowdLayer* layers, std::size_t layer_count, float portion, std::size_t groups, CrowdGroup* out);

@@ -21,11 +21,11 @@ void blend_with(const PoseKernels& kernels, std::span<const CrowdLayer> layers, 
   if (layers.empty()) return;
   if (std::ranges::any_of(layers, [](const CrowdLayer& layer) { return !layer.mask.empty(); }))
     return kernels.blend_masked(layers.data(), layers.size(), out.size(), out.data());
-  const auto has_weight = [](const CrowdLayer& layer) { return layer.weight > 0; };
+  const auto has_weight = [](const CrowdLayer& layer) { return layer.weight > least_weight; };
   const auto lead = std::ranges::find_if(layers, has_weight);
   if (lead == layers.end()) return copy_pose(layers[0].pose, out);
   float total = 0;
-  for (const CrowdLayer& layer : layers) total += layer.weight > 0 ? layer.weight : 0;
+  for (const CrowdLayer& layer : layers) total += has_weight(layer) ? layer.weight : 0;
   // The others contribute nothing, but would round.
   if (total == lead->weight && std::ranges::none_of(lead + 1, layers.end(), has_weight))
     return copy_pose(lead->pose, out);

@@ -81,6 +81,36 @@ TEST_CASE("a crowd's blend is the weighted mean of its layers, of any number, wi
     }
 }
 
+TEST_CASE("weights of a crowd's blend may be as small or as large as 1e-30 or 1e30, with masks, too") {
+  Random random(12);
+  const std::size_t size = 13;
+  const auto a = random_pose(random, size), b = random_pose(random, size);
+  std::vector<CrowdGroup> out(a.size());
+  const std::vector<float> whole(a.size() * CrowdGroup::size, 1.0F), little(whole.size(), 1e-20F);
+  for (const float weight : {1e-44F, 1e-39F, 1e-31F, 2e-30F, 1e-17F, 1.0F, 1e20F, 1e30F})
+    for (const auto& mask : {std::span<const float>(), std::span(whole), std::span(little)}) {
+      INFO("weight ", weight, ", mask of ", mask.empty() ? 0.0F : mask[0]);
+      blend(std::vector<CrowdLayer>{{a, weight, mask}, {b, 3 * weight, mask}}, out);
+      const float least = 3 * weight * (mask.empty() ? 1.0F : mask[0]);
+      if (least <= 1e-30F) {
+        CHECK(equal_bytes(out, a));
+        continue;
+      }
+      for (std::size_t joint = 0; joint < size; ++joint) {
+        const Pose wanted = mean_pose({pose_of(a, joint), pose_of(b, joint)}, {0.25, 0.75}),
+                   found = pose_of(out, joint);
+        CHECK(near(found.position, wanted.position, 2e-6));
+        CHECK(near(found.scale, wanted.scale, 2e-6));
+        CHECK(near(found.rotation, wanted.rotation, 2e-5));
+      }
+    }
+  // A little of b beside a weight that counts is nothing.
+  blend(std::vector<CrowdLayer>{{a, 2e-30F}, {b, 9e-31F}}, out);
+  CHECK(equal_bytes(out, a));
+  blend(std::vector<CrowdLayer>{{a, 2e-30F, whole}, {b, 9e-31F}}, out);
+  CHECK(equal_bytes(out, a));
+}
+
 TEST_CASE("weights of 0 and 1 give a crowd's inputs bit for bit, and the output may be an input") {
   Random random(2);
   for (const std::size_t size : figure_sizes) {

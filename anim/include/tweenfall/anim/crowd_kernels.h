@@ -30,7 +30,7 @@ namespace tweenfall {
 /// A pose that takes part in a blend.
 struct CrowdLayer {
   std::span<const CrowdGroup> pose;
-  float weight = 1;               ///< >= 0; negative ones count as 0
+  float weight = 1;               ///< up to 1e30; what is at most 1e-30, with its mask, counts as 0
   std::span<const float> mask{};  ///< from `crowd_mask`: multiplies the weight, joint by joint; empty: all fully
 };
 
