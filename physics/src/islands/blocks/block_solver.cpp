@@ -61,16 +61,19 @@ void BlockSolver::find_lags_of_jointed() {
 }
 
 /// Joints and motors that contradict each other may ask for any speed. A body that would turn or move farther in a
-/// sub-step than can be followed keeps the velocity that it had, and its joints forget what they asked for.
+/// sub-step than can be followed keeps the velocity that it had, and its joints forget what they asked for. Where they
+/// only turned it too far, and hang on nothing, all of them take over the momentum that this would cost.
 void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
   constexpr double farthest_turn = 2;  // rad
   constexpr double farthest = 100;     // of the body's size
+  const auto moves_near = [&](std::size_t i) {
+    const double gained = (linear_of(velocities_[i]) - linear_of(starts_[i])).squaredNorm() * h * h;
+    const double reach = farthest * bodies[bodies_[i].index].radius();
+    return gained <= reach * reach;
+  };
   const auto is_wild = [&](std::size_t i) {
     if (!bodies_[i].jointed || !bodies_[i].movable) return false;
-    const BodyLanes& velocity = velocities_[i];
-    const double gained = (linear_of(velocity) - linear_of(starts_[i])).squaredNorm() * h * h;
-    const double reach = farthest * bodies[bodies_[i].index].radius();
-    return !(gained <= reach * reach && angular_of(velocity).squaredNorm() * h * h <= farthest_turn * farthest_turn);
+    return !(moves_near(i) && angular_of(velocities_[i]).squaredNorm() * h * h <= farthest_turn * farthest_turn);
   };
   wild_.assign(work_.range_count(bodies_.size() - 1, worth_a_part), 0);
   work_.numbered_ranges(bodies_.size() - 1, worth_a_part, [&](std::size_t part, std::size_t begin, std::size_t end) {
@@ -80,14 +83,25 @@ void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
   });
   if (std::find(wild_.begin(), wild_.end(), 1) == wild_.end()) return;
   jointed_.assign(island_of_.back() + std::size_t{1}, {});
+  joints_.find_held(bodies_, [this](std::uint32_t place) { jointed_[island_of_[place]].free = false; });
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    if (!bodies_[i].jointed || !bodies_[i].movable) continue;
+    JointedFlight& its = jointed_[island_of_[i]];
+    its.mass += paces_[i].mass;
     if (!is_wild(i)) continue;
-    jointed_[island_of_[i]].wild = true;
+    its.wild = true;
+    its.free = its.free && moves_near(i);
     BodyLanes& velocity = velocities_[i];
+    its.gained += paces_[i].mass * (linear_of(velocity) - linear_of(starts_[i]));
     velocity = starts_[i];
     Vec3 angular = angular_of(velocity);
     const double turn = angular.norm() * h;
     if (turn > farthest_turn) set(velocity.angular, angular * (0.5 * farthest_turn / turn));
+  }
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    const JointedFlight& its = jointed_[island_of_[i]];
+    if (its.wild && its.free && bodies_[i].jointed && bodies_[i].movable)
+      set(velocities_[i].linear, linear_of(velocities_[i]) + its.gained / its.mass);
   }
   joints_.forget([this](std::uint32_t place) { return jointed_[island_of_[place]].wild; });
 }
