@@ -210,3 +210,34 @@ TEST_CASE("a plate that is pulled over the floor under 25 balls, and they, speed
     CHECK(all < 1e-6);
   }
 }
+
+TEST_CASE(
+    "a ball whose spin is damped rolls on like exp(-2 d t / 7), and what else is solved along with it changes no bit") {
+  constexpr double damping = 2, dt = 1.0 / 240;
+  std::vector<Vec3> alone;
+  for (const bool beside : {false, true}) {
+    World world({.sleep_after = std::numeric_limits<double>::infinity()});
+    world.add({.shape = {Plane{}}, .fixed = true});
+    BodySettings ball{.shape = {Sphere{0.2}}, .mass = 2.0, .friction = 1, .angular_damping = damping};
+    ball.motion.pose.position = Vec3(0, 0.2, 0);
+    ball.motion.twist = {Vec3(1, 0, 0), Vec3(0, 0, -5)};
+    const BodyId id = world.add(ball);
+    if (beside) {
+      BodySettings brick{.shape = {Box{Vec3(0.3, 0.1, 0.2)}}, .restitution = 0.5};
+      brick.motion.pose.position = Vec3(5, 0.3, 0);
+      brick.motion.twist.angular = Vec3(3, 4, 5);
+      world.add(brick);
+    }
+    for (std::size_t i = 0; i < 240; ++i) {
+      world.step(dt);
+      const Vec3 velocity = world.twist(id).linear;
+      CHECK(std::abs(velocity.x() - std::exp(-2 * damping * world.time() / 7)) < 5e-4);
+      for (const Contact& contact : world.contacts())
+        if (contact.b == id) CHECK(contact.impulse == doctest::Approx(2 * 9.81 * dt).epsilon(1e-3));
+      if (beside)
+        CHECK(velocity == alone[i]);
+      else
+        alone.push_back(velocity);
+    }
+  }
+}

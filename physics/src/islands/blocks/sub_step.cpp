@@ -53,7 +53,7 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
     if (pace.movable) {
       starts_[i] = velocity;
       begin_sub_step_of(i, bodies[entry.index], loads[entry.index], h);
-      carry_on(i, pace.even && !rebounded_ ? starts_[i] : ended_[i]);
+      carry_on(i, entry.isotropic && !rebounded_ ? starts_[i] : ended_[i]);
     } else if (entry.led == step::not_led) {
       starts_[i] = {};
     }
