@@ -92,7 +92,7 @@ void add_meshes(Model& model, const StageDescription& stage, std::vector<bool>& 
   }
 }
 
-/// Bodies and joints as they are at the recording's start.
+/// Bodies, joints and who passes through whom as they are at the recording's start.
 void add_physics(Model& model, const Recording& recording, const StageDescription& stage,
                  const std::vector<const NodeDescription*>& described) {
   std::map<std::string_view, std::size_t> index_of;
@@ -111,6 +111,8 @@ void add_physics(Model& model, const Recording& recording, const StageDescriptio
   };
   for (JointDescription joint : stage.joints)
     if (recorded(joint.a) && recorded(joint.b)) model.joints.push_back(std::move(joint));
+  for (auto [a, b] : stage.ignored)
+    if (recorded(a) && recorded(b)) model.ignored.emplace_back(a, b);
 }
 
 }  // namespace

@@ -330,6 +330,44 @@ TEST_CASE("what a recording ran with runs the same out of its glTF") {
   }
 }
 
+TEST_CASE("who passes through whom, and who follows a script, goes through glTF") {
+  const ScratchFolder folder("physics-ignore");
+  // Two balls fall, one through the shelf that it ignores; a third, of another group, falls through all of the first.
+  const std::string text = R"({"tweenfall": 1, "name": "sieve", "world": {"ignore": [["shelf", "a"], ["a", "lift"]]},
+    "nodes": {
+      "shelf": {"body": {"shape": {"box": {"size": [6, 0.2, 1]}}, "static": true}},
+      "a": {"position": [-1, 0.4, 0], "body": {"shape": {"sphere": {"radius": 0.2}}}},
+      "b": {"position": [0, 0.4, 0], "body": {"shape": {"sphere": {"radius": 0.2}}}},
+      "c": {"position": [1, 0.4, 0], "body": {"shape": {"sphere": {"radius": 0.2}}, "groups": ["light"], "collides_with": ["light"]}},
+      "lift": {"position": [2, 1, 0], "body": {"shape": {"box": {"size": [0.2, 0.2, 0.2]}}}}},
+    "clips": {"up": {"tracks": {"lift.position": [[0, [2, 1, 0]], [1, [2, 2, 0]]]}}}})";
+  const Document document = Document::parse(text, "sieve.json", folder.path());
+  Stage stage(document.stage());
+  save_recording(record(stage, 1, 60), document.stage(), folder / "sieve.glb");
+  const Document again =
+      Document::read(folder.file("again.json", R"({"tweenfall": 1, "import": {"s": "sieve.glb"}, "play": []})"));
+  Stage second(again.stage());
+  const auto node = [&](const char* name) { return second.node(std::string("s/") + name); };
+  for (const auto& [one, other] : {std::pair("shelf", "a"),
+                                   {"a", "lift"},
+                                   {"shelf", "b"},
+                                   {"shelf", "c"},
+                                   {"a", "b"},
+                                   {"b", "c"},
+                                   {"b", "lift"},
+                                   {"c", "lift"}}) {
+    CAPTURE(one);
+    CAPTURE(other);
+    CHECK(second.collides(node(one), node(other)) == stage.collides(stage.node(one), stage.node(other)));
+  }
+  CHECK(second.owner(node("lift")) == Owner::keyed);
+  second.advance(1);
+  CHECK(second.world(node("lift")).motion.pose.position == Vec3(2, 1, 0));
+  CHECK(second.world(node("a")).motion.pose.position.y() == doctest::Approx(0.4 - 0.5 * 9.81).epsilon(1e-9));
+  CHECK(second.world(node("b")).motion.pose.position.y() == doctest::Approx(0.3).epsilon(1e-3));
+  CHECK(second.world(node("c")).motion.pose.position.y() == doctest::Approx(0.4 - 0.5 * 9.81).epsilon(1e-9));
+}
+
 TEST_CASE("bodies in glTF that are wrong are told of, and of those that cannot be, the rest is kept") {
   const std::string good = two_jointed_balls(lock("linearAxes", "0,1,2"));
   const auto with = [&](const std::string& from, const std::string& to) {

@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tweenfall {
@@ -40,7 +41,9 @@ struct Model {
   std::vector<MeshInstance> instances;
   std::vector<ModelBody> bodies;         ///< from glTF with KHR_physics_rigid_bodies; at most one for each node
   std::vector<JointDescription> joints;  ///< from the same; their ends are nodes of the model that have bodies
-  std::vector<std::string> repairs;      ///< faults of the file and how it was read nevertheless, one sentence each
+  /// Nodes whose bodies pass through each other; read from a file, this is part of the groups of the bodies.
+  std::vector<std::pair<std::size_t, std::size_t>> ignored;
+  std::vector<std::string> repairs;  ///< faults of the file and how it was read nevertheless, one sentence each
 };
 
 /// A file that could not be loaded; `what()` names it and says why, one problem per line, with the line and column

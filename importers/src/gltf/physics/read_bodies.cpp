@@ -1,3 +1,4 @@
+#include "gltf/physics/collision_systems.h"
 #include "gltf/physics/read_physics.h"
 #include "gltf/physics/written_physics.h"
 
@@ -59,6 +60,7 @@ class BodyReader {
     for (const auto& [node, parts] : triggers_) owners.emplace(node, true);
     for (const auto& [node, parts] : colliders_) owners[node] = parts.empty() && owners.contains(node);
     for (const auto& [node, sensor] : owners) add(node, sensor);
+    systems_.finish(bodies_);
     return std::move(bodies_);
   }
 
@@ -154,6 +156,8 @@ class BodyReader {
     body.body.twist.angular = turned * vector_of(motion, "angularVelocity", {0, 0, 0});
     const bool immovable = motion.flag("isKinematic") || mass == 0.0;
     body.keyed = immovable && scene_.animated[body.node];
+    // Whether or not its clips play.
+    if (body.keyed) body.body.drive = Drive::keyed();
     body.body.fixed = immovable && !body.keyed;
     if (body.body.fixed && !(body.body.twist.linear.isZero(0) && body.body.twist.angular.isZero(0)))
       motion.problems().repair(motion.place(), "has a velocity that nothing can change; it stands still here");
@@ -207,27 +211,7 @@ class BodyReader {
     }
     const auto index = collider.index("collisionFilter", physics_.list("collisionFilters").size());
     if (!index) return;
-    const Fields filter = physics_.at("collisionFilters", *index);
-    if (filter.has("collisionSystems")) body.groups = groups_named(filter, "collisionSystems");
-    if (filter.has("collideWithSystems")) body.collides_with = groups_named(filter, "collideWithSystems");
-    if (filter.has("notCollideWithSystems")) body.collides_with &= ~groups_named(filter, "notCollideWithSystems");
-  }
-
-  std::uint64_t groups_named(const Fields& filter, const char* list) {
-    std::uint64_t groups = 0;
-    for (const json::Value& name : filter.list(list)) {
-      if (!name.is(json::Value::Kind::text)) {
-        filter.problems().add(filter.place_of(list), "must be a list of names");
-        break;
-      }
-      // The first group is that of bodies without a filter.
-      const std::size_t number = groups_.emplace(std::string(name.text()), groups_.size() + 1).first->second;
-      if (number < 64)
-        groups |= std::uint64_t{1} << number;
-      else
-        filter.problems().repair(filter.place_of(list), "names more than 63 systems in all; the last were left out");
-    }
-    return groups;
+    systems_.add(bodies_.size(), physics_.at("collisionFilters", *index));
   }
 
   std::optional<Shape> shape_of(const Fields& collider, std::size_t node, std::size_t owner) {
@@ -335,7 +319,7 @@ class BodyReader {
   Fields shapes_, physics_;
   std::vector<std::size_t> mover_;
   std::map<std::size_t, std::vector<Part>> colliders_, triggers_;  // by the body they belong to
-  std::map<std::string, std::size_t> groups_;
+  CollisionSystems systems_;
   std::vector<ModelBody> bodies_;
   std::size_t count_ = 0;  // of geometries reported
 };

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
+#include <set>
 #include <variant>
 
 namespace tweenfall::gltf::physics {
@@ -105,6 +107,14 @@ class PhysicsWriter {
     for (const Node& node : model.nodes)
       scales_.push_back(node.parent == no_node ? node.rest.scale : scales_[node.parent].cwiseProduct(node.rest.scale));
     for (const ModelBody& body : model.bodies) groups_ |= body.body.groups;
+    for (const ModelBody& body : model.bodies) shunned_ |= ~body.body.collides_with & groups_;
+    for (const auto& [a, b] : model.ignored) {
+      // A body that has a system of its own already needs no second one.
+      const bool of_b = own_.contains(b) && !own_.contains(a);
+      const std::size_t owner = of_b ? b : a, other = of_b ? a : b;
+      own_.insert(owner);
+      passes_[other].insert(owner);
+    }
   }
 
   void write(const ModelBody& body) {
@@ -217,7 +227,7 @@ class PhysicsWriter {
       node = add_node({model_.nodes[body.node].name + " collider", body.node, {place.position, place.rotation}});
     Json collider{{"geometry", worn ? Json{{"node", node}} : geometry_of(shape.solid)}};
     if (worn && std::holds_alternative<Hull>(shape.solid)) collider["geometry"]["convexHull"] = true;
-    if (const Json filter = filter_of(body.body); !filter.is_null()) collider["collisionFilter"] = filters_.add(filter);
+    if (const Json filter = filter_of(body); !filter.is_null()) collider["collisionFilter"] = filters_.add(filter);
     if (!body.body.sensor) collider["physicsMaterial"] = materials_.add(material_of(body.body));
     of_nodes_[node][body.body.sensor ? "trigger" : "collider"] = std::move(collider);
     triggers.push_back(node);
@@ -232,18 +242,24 @@ class PhysicsWriter {
     return material;
   }
 
-  [[nodiscard]] Json filter_of(const BodyDescription& body) const {
+  /// Bodies that pass through a single other one do not collide with the system that this one has for itself.
+  [[nodiscard]] Json filter_of(const ModelBody& body) const {
     const auto systems = [](std::uint64_t groups) {
       Json names = Json::array();
       for (int bit = 0; bit < 64; ++bit)
         if (groups >> bit & 1) names.push_back("group " + std::to_string(bit));
       return names;
     };
-    const std::uint64_t apart = ~body.collides_with & groups_;
-    if (body.groups == 1 && apart == 0) return {};
-    Json filter = Json::object();
-    if (body.groups != 0) filter["collisionSystems"] = systems(body.groups);
-    if (apart != 0) filter["notCollideWithSystems"] = systems(apart);
+    const auto own_system = [this](std::size_t node) { return "body " + model_.nodes[node].name; };
+    const std::uint64_t groups = body.body.groups;
+    Json in = systems(groups), apart = systems(~body.body.collides_with & groups_);
+    if (own_.contains(body.node)) in.push_back(own_system(body.node));
+    if (const auto passes = passes_.find(body.node); passes != passes_.end())
+      for (const std::size_t other : passes->second) apart.push_back(own_system(other));
+    // Where others do not collide with the first group, its bodies must name it.
+    if (groups == 1 && in.size() == 1 && apart.empty() && (shunned_ & 1) == 0) return {};
+    Json filter{{"collisionSystems", in}};
+    if (!apart.empty()) filter["notCollideWithSystems"] = apart;
     return filter;
   }
 
@@ -251,8 +267,10 @@ class PhysicsWriter {
   Masses masses_;
   std::size_t first_node_, first_mesh_;
   BufferWriter& buffer_;
-  std::vector<Vec3> scales_;  ///< of each node's space, including those of its ancestors
-  std::uint64_t groups_ = 0;  ///< that contain some body
+  std::vector<Vec3> scales_;                ///< of each node's space, including those of its ancestors
+  std::uint64_t groups_ = 0, shunned_ = 0;  ///< that contain some body; of these, with which some body does not collide
+  std::set<std::size_t> own_;               ///< nodes with a system of their own
+  std::map<std::size_t, std::set<std::size_t>> passes_;  ///< by node, which of these its body passes through
   std::map<std::size_t, Json> of_nodes_;
   Listed shapes_, materials_, filters_, joints_;
   WrittenPhysics written_;
