@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "islands/jointed_energy.h"
+
 namespace tweenfall::islands {
 
 namespace {
@@ -102,6 +104,7 @@ bool FreeIslands::gather(const IslandContents& island, const std::vector<Body>& 
     for (const std::uint32_t index : {link->a, link->b}) {
       Member& member = members_[slot_of(index)];
       member.gripped = member.jointed = true;
+      member.driven = member.driven || gives_energy(link->joint->settings.kind);
     }
   }
   for (const contacts::ContactConstraint* contact : island.contacts) {
@@ -184,8 +187,9 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
     }
   // A blow counts with the energy that it had where the solver left the center, which may be lower than here.
   const bool jointed = std::any_of(group.begin(), group.end(), [](const Member& member) { return member.jointed; });
-  const double gained =
-      jointed || after.energy <= (1 + rounding_of_energy) * before.energy ? 0 : after.energy - before.energy;
+  const bool driven = std::any_of(group.begin(), group.end(), [](const Member& member) { return member.driven; });
+  const double most = (1 + (jointed ? passable_gain : rounding_of_energy)) * before.energy;
+  const double gained = driven || after.energy <= most ? 0 : after.energy - (jointed ? most : before.energy);
   if (gained == 0 && (after.momentum - before.momentum).norm() <= rounding * std::max(before.size, after.size)) return;
   const auto arm_of = [center = Vec3(after.center + moved_by)](const Body& body) -> Vec3 {
     return body.center - center;

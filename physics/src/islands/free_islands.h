@@ -41,7 +41,8 @@ class FreeIslands {
   struct Member {
     std::uint32_t index = 0;
     bool gripped = false;  ///< its spin changes with that of the others
-    bool jointed = false;  ///< motors and springs may give it energy
+    bool jointed = false;  ///< joints hold it only up to their remaining gaps
+    bool driven = false;   ///< motors and springs may give it energy
     FreeStart start;
   };
 

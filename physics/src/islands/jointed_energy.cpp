@@ -1,0 +1,116 @@
+#include "islands/jointed_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <variant>
+
+#include "islands/handed_back.h"
+
+namespace tweenfall::islands {
+
+using state::Body;
+
+namespace {
+
+/// The bodies of an island that its solver moved, in order, each once.
+class Held {
+ public:
+  Held(const IslandContents& island, const std::vector<Body>& bodies, const std::vector<char>& moved)
+      : bodies_(bodies), moved_(moved) {
+    for (const contacts::ContactConstraint* contact : island.contacts) {
+      const std::span<const contacts::PointConstraint> points = contact->points;
+      const bool pushed =
+          std::ranges::any_of(points.first(static_cast<std::size_t>(contact->count)),
+                              [](const contacts::PointConstraint& point) { return point.total_normal > 0; });
+      end(contact->a, pushed);
+      end(contact->b, pushed);
+    }
+    for (const joints::JointLink* link : island.joints) {
+      if (link->a == joints::JointLink::world)
+        held = true;
+      else
+        end(link->a, true);
+      end(link->b, true);
+      passive = passive && !gives_energy(link->joint->settings.kind);
+    }
+    std::sort(free.begin(), free.end());
+    free.erase(std::unique(free.begin(), free.end()), free.end());
+  }
+
+  bool passive = true;  ///< nothing that moves by its own will gives energy
+  bool held = false;    ///< by something immovable
+  std::vector<std::uint32_t> free;
+
+ private:
+  void end(std::uint32_t index, bool holds) {
+    const Body& body = bodies_[index];
+    passive = passive && !body.conveys && !(body.immovable() && body.displaces());
+    if (body.immovable())
+      held = held || holds;
+    else if (moved_[index] != 0)
+      free.push_back(index);
+  }
+
+  const std::vector<Body>& bodies_;
+  const std::vector<char>& moved_;
+};
+
+double energy_of(const Body& body, const Quat& rotation, const Twist& twist) {
+  return 0.5 * body.mass().mass * twist.linear.squaredNorm() +
+         0.5 * twist.angular.dot(body.world_inertia(rotation) * twist.angular);
+}
+
+}  // namespace
+
+bool gives_energy(const JointKind& kind) {
+  return std::visit(
+      [](const auto& its) {
+        using Kind = std::decay_t<decltype(its)>;
+        const auto is_soft = [](const std::optional<Limits>& limits) { return limits && limits->hz > 0; };
+        if constexpr (requires { its.motor; })
+          if (its.motor) return true;
+        if constexpr (requires { its.limits.has_value(); })
+          if (is_soft(its.limits)) return true;
+        if constexpr (std::is_same_v<Kind, UniversalJoint>)
+          return its.first_motor || its.second_motor || is_soft(its.first_limits) || is_soft(its.second_limits);
+        if constexpr (std::is_same_v<Kind, SwingTwistJoint>) return its.toward.has_value() || its.twist.hz > 0;
+        if constexpr (std::is_same_v<Kind, DistanceJoint>) return its.limits.hz > 0;
+        return std::is_same_v<Kind, SpringJoint> || std::is_same_v<Kind, WheelJoint>;
+      },
+      kind);
+}
+
+void bound_jointed(const IslandContents& island, std::vector<Body>& bodies, const std::vector<forces::Load>& loads,
+                   const std::vector<char>& moved, const std::function<FreeStart(std::uint32_t)>& start_of) {
+  if (island.joints.empty() || !island.springs.empty()) return;
+  const Held held(island, bodies, moved);
+  if (!held.held || !held.passive) return;
+  double before = 0, work = 0, most = 0, after = 0;
+  for (const std::uint32_t index : held.free) {
+    const Body& body = bodies[index];
+    const forces::Load& load = loads[index];
+    if (body.drive.owner() == Owner::driven || load.torque != Vec3::Zero()) return;
+    const FreeStart start = start_of(index);
+    const Vec3 moved_by = body.center - start.center;
+    const double fallen = 0.5 * body.mass().mass * (load.acceleration + load.end_acceleration).dot(moved_by);
+    before += energy_of(body, start.rotation, start.twist);
+    work += fallen;
+    most += std::abs(fallen);
+    after += energy_of(body, body.motion.pose.rotation, body.twist);
+  }
+  const double allowed = std::max(0.0, before + work + passable_gain * (before + most));
+  if (after <= allowed) return;
+  const double share = std::sqrt(allowed / after);
+  HandedBack handed_back(island, bodies);
+  for (const std::uint32_t index : held.free) {
+    Body& body = bodies[index];
+    handed_back.note(index, (share - 1) * body.mass().mass * body.twist.linear);
+    body.twist.linear *= share;
+    body.twist.angular *= share;
+    body.follow_center(body.motion.pose.rotation);
+  }
+  handed_back.hand_back();
+}
+
+}  // namespace tweenfall::islands
