@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "chains/chain_solve.h"
 
@@ -22,11 +23,11 @@ struct Ways {
     Arrow column;  // how the end moves with it, m/rad
     Dual ease;     // how easily it turns; 1 or more
     Dual low, high;
+    bool is_round;  // as in `Freedom`
+    Dual out;
   };
   std::size_t count = 0;
   Way way[3 * ChainShape::room];
-
-  [[nodiscard]] std::span<const Way> all() const noexcept { return {way, count}; }
 };
 
 Dual turned(const Ways::Way& way, const Arrow& pull) noexcept {
@@ -34,19 +35,59 @@ Dual turned(const Ways::Way& way, const Arrow& pull) noexcept {
   return turn.v <= way.low.v ? way.low : turn.v >= way.high.v ? way.high : turn;
 }
 
+// The turns of a way and the one beside it that are limited together.
+std::pair<Dual, Dual> turned(const Ways::Way& way, const Ways::Way& beside, const Arrow& pull) noexcept {
+  const Dual x = way.out + way.ease * dot(way.column, pull), y = way.ease * dot(beside.column, pull);
+  const Dual far = root(x * x + y * y);
+  if (far.v <= way.high.v) return {x - way.out, y};
+  const Dual share = way.high / far;
+  return {share * x - way.out, share * y};
+}
+
+// Calls `visit` with each way and its turn under a pull.
+template <class Visit>
+void turn_all(const Ways& ways, const Arrow& pull, const Visit& visit) noexcept {
+  for (std::size_t i = 0; i < ways.count; ++i) {
+    const Ways::Way& way = ways.way[i];
+    if (!way.is_round) {
+      visit(way, turned(way, pull));
+      continue;
+    }
+    const Ways::Way& beside = ways.way[++i];
+    const auto [turn, aside] = turned(way, beside, pull);
+    visit(way, turn);
+    visit(beside, aside);
+  }
+}
+
 // The pull under which the joints turn until the remainder of `missing` equals damping * pull. Their difference is the
 // gradient of a strictly concave function, so there is exactly one such pull, and Newton's method with line search
 // finds it.
 Arrow pull_of(const Ways& ways, const Dual& damping, const Arrow& missing) noexcept {
   Mat3 slope;
-  const auto left = [&](const Vec3& pull, bool sloped) {
+  const auto left = [&](const Vec3& pull) {
     Vec3 rest = missing.v - damping.v * pull;
-    if (sloped) slope = damping.v * Mat3::Identity();
-    for (const Ways::Way& way : ways.all()) {
+    slope = damping.v * Mat3::Identity();
+    for (std::size_t i = 0; i < ways.count; ++i) {
+      const Ways::Way& way = ways.way[i];
       const Vec3& a = way.column.v;
       const double turn = way.ease.v * a.dot(pull);
-      rest -= std::clamp(turn, way.low.v, way.high.v) * a;
-      if (sloped && turn > way.low.v && turn < way.high.v) slope += (way.ease.v * a) * a.transpose();
+      if (!way.is_round) {
+        rest -= std::clamp(turn, way.low.v, way.high.v) * a;
+        if (turn > way.low.v && turn < way.high.v) slope += (way.ease.v * a) * a.transpose();
+        continue;
+      }
+      const Vec3& b = ways.way[++i].column.v;
+      const double x = way.out.v + turn, y = way.ease.v * b.dot(pull), far = std::sqrt(x * x + y * y);
+      if (far <= way.high.v) {
+        rest -= turn * a + y * b;
+        slope += way.ease.v * (a * a.transpose() + b * b.transpose());
+      } else {
+        const double share = way.high.v / far;
+        rest -= (share * x - way.out.v) * a + (share * y) * b;
+        const Vec3 along = (x * b - y * a) / far;
+        slope += (way.ease.v * share) * along * along.transpose();
+      }
     }
     return rest;
   };
@@ -55,25 +96,23 @@ Arrow pull_of(const Ways& ways, const Dual& damping, const Arrow& missing) noexc
   constexpr double exact = 1e-14;
   constexpr int most = 60, halvings = 40;
   Arrow pull;
-  Vec3 now = left(pull.v, true);
+  Vec3 now = left(pull.v);
   for (int i = 0; i < most && now.squaredNorm() > exact * exact * missing.v.squaredNorm(); ++i) {
     const Vec3 on = newton(now);
     const double slack = 0.5 * now.dot(on);
     double share = 1;
-    Vec3 next = left(pull.v + on, true);
+    Vec3 next = left(pull.v + on);
     for (int k = 0; k < halvings && next.dot(on) < -slack; ++k) {
       share *= 0.5;
-      next = left(pull.v + share * on, true);
+      next = left(pull.v + share * on);
     }
     pull.v += share * on;
     now = next;
   }
 
   Vec3 rate = missing.d - damping.d * pull.v;
-  for (const Ways::Way& way : ways.all()) {
-    const Dual turn = turned(way, pull);
-    rate -= turn.v * way.column.d + turn.d * way.column.v;
-  }
+  turn_all(ways, pull,
+           [&](const Ways::Way& way, const Dual& turn) { rate -= turn.v * way.column.d + turn.d * way.column.v; });
   pull.d = newton(rate);
   return pull;
 }
@@ -94,9 +133,11 @@ class LimitedSolve {
 
  private:
   void move_off() noexcept;
+  void carry_on(const Dual& before, Turning (&last)[ChainShape::room]) noexcept;
   void track(bool patiently) noexcept;
   double step(const Arrow& target) noexcept;
   void start_over(int number) noexcept;
+  void glance_from(int number) noexcept;
   [[nodiscard]] Dual distance() const noexcept { return length(target_ - shape_.end()); }
   [[nodiscard]] bool arrived() const noexcept { return distance().v <= 1e-9 * shape_.reach().v; }
 
@@ -141,22 +182,21 @@ double LimitedSolve::step(const Arrow& target) noexcept {
                                   .column = shape_.outside(i, cross(way.axis, arm)),
                                   .ease = ease_[i],
                                   .low = way.low.v < -widest ? Dual(-widest) : way.low,
-                                  .high = way.high.v > widest ? Dual(widest) : way.high};
+                                  .high = way.high.v > widest && !way.is_round ? Dual(widest) : way.high,
+                                  .is_round = way.is_round,
+                                  .out = way.out};
     }
   }
   // Too small to matter; keeps the pull finite where nothing is free to turn.
   const Dual least = 1e-14 * shape_.reach() * shape_.reach();
   const Arrow pull = pull_of(ways_, length(missing) * curvature_ + least, missing);
   double largest = 0;
-  for (std::size_t i = 0, k = 0; i < count_; ++i) {
-    Arrow by;
-    for (; k < ways_.count && ways_.way[k].joint == i; ++k) {
-      const Dual turn = turned(ways_.way[k], pull);
-      largest = std::max(largest, std::abs(turn.v));
-      by = by + turn * ways_.way[k].axis;
-    }
-    shape_.turn(i, turned_by(shape_.joint(i), shape_.turn(i), by));
-  }
+  Arrow by[ChainShape::room];
+  turn_all(ways_, pull, [&](const Ways::Way& way, const Dual& turn) {
+    largest = std::max(largest, std::abs(turn.v));
+    by[way.joint] = by[way.joint] + turn * way.axis;
+  });
+  for (std::size_t i = 0; i < count_; ++i) shape_.turn(i, turned_by(shape_.joint(i), shape_.turn(i), by[i]));
   shape_.place();
   return largest;
 }
@@ -175,23 +215,46 @@ void LimitedSolve::move_off() noexcept {
   bend(target_, shape_);
 }
 
+// Goes on as far again as the last step led, or less, the nearer that brought the end: steps that lead straight to the
+// target need none of it, and those that creep toward the nearest that can be reached become ten times as fast. Only
+// for chains that may leap: where two branches part, a few hundred slow steps lead close targets to close results, but
+// fast ones to either branch.
+// Source: Nesterov, "A method for solving the convex programming problem with convergence rate O(1/k^2)", 1983.
+void LimitedSolve::carry_on(const Dual& before, Turning (&last)[ChainShape::room]) noexcept {
+  constexpr double most = 0.9;
+  const Dual ratio = distance() / before, square = ratio.v > 1 ? Dual(1) : ratio * ratio;
+  const Dual share = most * (square * square);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Turning turn = shape_.turn(i);
+    const Arrow way = log_turn(turn * inverse(last[i]));
+    shape_.turn(i, turned_by(shape_.joint(i), turn, share * way));
+    last[i] = turn;
+  }
+  shape_.place();
+}
+
 // @param patiently  to the end; else only as long as it leads on by a tenth in four steps
 void LimitedSolve::track(bool patiently) noexcept {
   constexpr int most = 300, glance = 4;
-  constexpr double still = 1e-12;  // rad
+  constexpr double still = 1e-14;  // rad
   const Arrow from = shape_.end();
   // Clamped to the reach of the chain: a farther target in the same direction has the same result.
   const Measured way = measured(target_ - shape_.at(0));
   const Arrow to = way.length.v > shape_.reach().v ? shape_.at(0) + shape_.reach() * way.unit : target_;
   for (int i = 1; i < chain_.sweeps(); ++i) step(from + Dual(static_cast<double>(i) / chain_.sweeps()) * (to - from));
-  double before = std::numeric_limits<double>::infinity();
+  Turning last[ChainShape::room];
+  for (std::size_t i = 0; i < count_; ++i) last[i] = shape_.turn(i);
+  Dual before = distance();
+  double at_a_glance = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
-    const double now = distance().v;
-    const bool near = now <= there * shape_.reach().v;
+    const Dual now = distance();
+    const bool near = now.v <= there * shape_.reach().v;
     if (!patiently && i % glance == 0) {
-      if (now > 0.9 * before && !arrived()) return;
-      before = now;
+      if (now.v > 0.9 * at_a_glance && !arrived()) return;
+      at_a_glance = now.v;
     }
+    if (!near && chain_.leaps()) carry_on(before, last);
+    before = now;
     if (step(target_) < still || near) return;
   }
 }
@@ -218,23 +281,43 @@ void LimitedSolve::start_over(int number) noexcept {
   shape_.place();
 }
 
+void LimitedSolve::glance_from(int number) noexcept {
+  start_over(number);
+  bend(target_, shape_);
+  track(false);
+}
+
 void LimitedSolve::run() noexcept {
   move_off();
   track(true);
-  if (!chain_.leaps() || arrived() || length(target_ - shape_.at(0)).v > shape_.reach().v) return;
+  if (!chain_.leaps() || arrived()) return;
   // What is missed by little may yet be reached from few places; what is missed by more surely is out of reach.
   constexpr int some = 100, many = 400;
-  const double little = 0.02 * shape_.reach().v;
-  const ChainShape nearest = shape_;
-  double least = distance().v;
-  for (int number = 0; number < (least < little ? many : some); ++number) {
-    start_over(number);
-    bend(target_, shape_);
-    track(false);
+  constexpr double little = 0.02, matters = 1e-6;  // of the chain's length
+  const double reach = shape_.reach().v;
+  ChainShape nearest = shape_;
+  double least = distance().v, missed = least;
+  // The most promising places for what cannot be reached, the best first.
+  constexpr std::size_t few = 8;
+  std::pair<double, int> promising[few];
+  std::size_t count = 0;
+  for (int number = 0; number < (missed < little * reach ? many : some); ++number) {
+    glance_from(number);
     // Where the end comes to its farthest, or to its nearest, the last bit takes many steps.
-    if (!arrived() && distance().v < 0.1 * little) track(true);
+    if (!arrived() && distance().v < 0.1 * little * reach) track(true);
     if (arrived()) return;
-    least = std::min(least, distance().v);
+    missed = std::min(missed, distance().v);
+    std::pair<double, int> next(distance().v, number);
+    for (std::size_t i = 0; i < count; ++i)
+      if (next < promising[i]) std::swap(next, promising[i]);
+    if (count < few) promising[count++] = next;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    glance_from(promising[i].second);
+    track(true);
+    if (distance().v > least - matters * reach) continue;
+    nearest = shape_;
+    least = distance().v;
   }
   shape_ = nearest;
 }

@@ -90,10 +90,9 @@ Freedom freedom_of(const JointChain::Joint& joint, const Turning& turn) noexcept
   Measured twist = measured(rest + bone);
   if (!(twist.length.v > 1e-9)) twist.unit = {Vec3(swing.v.cross(joint.bone)), still};
   const Dual angle = twist_about(joint.bone, turn), opening = angle_of(normal.length, dot(rest, bone));
-  const Dual around = cone->swing > 0 ? anywhere : 0;
-  freedom.ways[0] = {swing, Dual(-cone->swing) - opening, Dual(cone->swing) - opening};
-  freedom.ways[1] = {twist.unit, Dual(cone->twist_low) - angle, Dual(cone->twist_high) - angle};
-  freedom.ways[2] = {cross(swing, twist.unit), -around, around};
+  freedom.ways[0] = {.axis = swing, .low = {}, .high = Dual(cone->swing), .is_round = true, .out = opening};
+  freedom.ways[1] = {.axis = cross(swing, twist.unit), .low = {}, .high = {}};
+  freedom.ways[2] = {twist.unit, Dual(cone->twist_low) - angle, Dual(cone->twist_high) - angle};
   return freedom;
 }
 

@@ -17,8 +17,10 @@ namespace tweenfall::chains {
 /// The axes about which a joint can turn from where it is, and how far its limit allows.
 struct Freedom {
   struct Way {
-    Arrow axis;      ///< unit, at right angles to the others, in the axes of the joint's rest pose
-    Dual low, high;  ///< rad
+    Arrow axis;             ///< unit, at right angles to the others, in the axes of the joint's rest pose
+    Dual low, high;         ///< rad
+    bool is_round = false;  ///< whether this way and the next are limited together, by a disc
+    Dual out;               ///< then the turns are from `out` along this way, and end no farther than `high` from 0
   };
   Way ways[3];
   int count = 0;

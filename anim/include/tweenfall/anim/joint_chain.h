@@ -11,13 +11,17 @@
 /// With limits, the target moves from the end of the chain to its place in as many steps as there are sweeps, and the
 /// joints follow it within their limits by least squares; the method determines which of them turn the most. The
 /// farther the target is, the more they start from the middle of their limits. Close targets have close results here
-/// too. The poses that limits allow may form separate branches, as for an elbow that can bend to one side or the other:
-/// then no rule can both reach all targets and never jump. The chain reaches the targets on the branch on which it
-/// begins: for random chains of sockets 9,999 in 10,000 of all that can be reached, of hinges and sockets 997 in 1,000,
-/// of hinges about arbitrary axes 97 in 100. For the others it comes as near as it can on that branch. With `leaps` it
-/// also searches elsewhere, from poses drawn within the limits, the same ones each time: of 10,000 random chains of any
-/// of these it misses one at most. Then it jumps where a branch ends, and a target that cannot be reached takes about a
-/// hundred times as long, some milliseconds.
+/// too, except where what is nearest itself changes sides, as for a finger whose target goes around behind it. The
+/// poses that limits allow may form separate branches, as for an elbow that can bend to one side or the other: then no
+/// rule can both come as near as possible to all targets and never jump. The chain reaches the targets on the branch on
+/// which it begins: for random chains of sockets 9,999 in 10,000 of all that can be reached, of hinges and sockets 997
+/// in 1,000, of hinges about arbitrary axes 97 in 100. To the others it comes near on that branch: of random targets
+/// out of reach to three in four as near as any pose does, to 1e-6 of the chain's length, and to seven in eight within
+/// 0.001 of that. With `leaps` it also searches elsewhere, from poses drawn within the limits, the same ones each time:
+/// of 10,000 random chains of any of these it misses one at most, and it comes as near as any pose does to what cannot
+/// be reached (of 1,000 random targets to all but 4, which it misses by up to 0.01 of the chain's length more). Then it
+/// jumps wherever another branch is nearer, and a target that cannot be reached takes about a hundred times as long,
+/// some milliseconds.
 
 #include <tweenfall/anim/node_ref.h>
 
@@ -56,7 +60,7 @@ struct JointChainSettings {
   std::vector<ChainLink> links;  ///< from the one nearest to the root to the end, which is carried; 2 to 65
   ChainMethod method = ChainMethod::fabrik;
   int sweeps = 8;      ///< 0 to 1000
-  bool leaps = false;  ///< whether a chain with limits may jump to targets that it does not reach otherwise
+  bool leaps = false;  ///< whether a chain with limits may jump to where it is nearer to its target
 };
 
 class JointChain {

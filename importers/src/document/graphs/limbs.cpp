@@ -169,17 +169,17 @@ const Table<ReachPose>& reach_table() {
     read_joints(value, reaching_joint_table(), pose.joints, building);
   };
   static const Table<Pose> table(
-      "a chain", {{"joints", joints, "from the one nearest to the root to the end, which is carried", {read}, true},
-                  place_row<Pose>("target", "for which the end reaches", true, &Pose::target),
-                  fields::one_of<Pose, ChainMethod>("method", "a way to reach: \"fabrik\" or \"ccd\"",
-                                                    {{"fabrik", ChainMethod::fabrik}, {"ccd", ChainMethod::ccd}},
-                                                    "bones stay where they were, or joints near the end turn the most",
-                                                    &Pose::method),
-                  {"sweeps", bounded("a whole number from 0 to 1000", 0, false, 1000, true), "of the method",
-                   member<Pose>(&Pose::sweeps)},
-                  {"leaps", &ValueForms::boolean, "may jump to targets that its limits otherwise keep it from",
-                   member<Pose>(&Pose::leaps)},
-                  weight_row<Pose>()});
+      "a chain",
+      {{"joints", joints, "from the one nearest to the root to the end, which is carried", {read}, true},
+       place_row<Pose>("target", "for which the end reaches", true, &Pose::target),
+       fields::one_of<Pose, ChainMethod>("method", "a way to reach: \"fabrik\" or \"ccd\"",
+                                         {{"fabrik", ChainMethod::fabrik}, {"ccd", ChainMethod::ccd}},
+                                         "bones stay where they were, or joints near the end turn the most",
+                                         &Pose::method),
+       {"sweeps", bounded("a whole number from 0 to 1000", 0, false, 1000, true), "of the method",
+        member<Pose>(&Pose::sweeps)},
+       {"leaps", &ValueForms::boolean, "may jump to wherever it is nearer to its target", member<Pose>(&Pose::leaps)},
+       weight_row<Pose>()});
   return table;
 }
 
