@@ -8,7 +8,8 @@ namespace tweenfall {
 namespace chains {
 namespace {
 
-constexpr double steepest = 0.1;  // least part of the normal along up
+constexpr double steepest = 0.1;    // least part of the normal along up
+constexpr double taken_over = 0.1;  // weight from which on the legs bend as they must to stand
 
 // The goal of a foot: how much higher the ground is than the floor, and the orientation of its sole.
 struct Step {
@@ -140,12 +141,15 @@ void place_feet(const FootPlacement& placement, const GroundAt& ground, const Sa
   pelvis.pose.position += way.v;
   pelvis.twist.linear += way.d;
 
+  // A leg that the script bends otherwise, or stretches beyond its softness, would jump at the least weight.
+  const Dual leg = smooth_step(number(weight) / Dual(taken_over));
   for (std::size_t i = 0; i < count; ++i) {
     const FootPlacement::Foot& foot = placement.feet()[i];
     const Step& step = steps[i];
     const Arrow ankle = Dual(foot.ankle_height) * up;
     const Arrow target = step.ankle + step.rise * up + step.tilt * ankle - ankle;
-    reach(foot.leg, {.target = {target.v, target.d, Vec3(0, 0, 0)}, .softness = placement.softness()}, {1, 0, 0}, pose);
+    reach(foot.leg, {.target = {target.v, target.d, Vec3(0, 0, 0)}, .softness = placement.softness()},
+          {leg.v, leg.d, 0}, pose);
     const Turning outer = rotation_of(above(nodes, foot.leg.end(), pose).motion);
     turn_to(pose[foot.leg.end()], chains::inverse(outer) * step.tilt * step.rotation, {1, 0, 0});
   }

@@ -205,3 +205,27 @@ TEST_CASE("what is wrong with a foot placement is told all at once") {
                        "foot placement: foot 3: two-bone chain: end is \"toe\", and there is no such node",
                        std::invalid_argument);
 }
+
+TEST_CASE("feet that begin to be placed do not jump, however the script bends or stretches their legs") {
+  Random random(31);
+  const Hierarchy nodes = walker();
+  FootPlacementSettings settings = both_feet();
+  settings.softness = 0.2;
+  const FootPlacement placement(nodes, settings);
+  const GroundAt slope = [](const Sample<Vec3>& place) {
+    return Ground{.height = 0.1 - place.value.dot(Vec3(0.2, 0, 0.1)), .normal = {0.2, 1, 0.1}};
+  };
+  for (int i = 0; i < 50; ++i) {
+    CAPTURE(i);
+    const SwingingPose script(random, nodes, 0.02, 0.7);
+    const auto placed_by = [&](const Sample<double>& weight, double t) {
+      std::vector<Motion> pose = script.at(t);
+      place_feet(placement, slope, zero_floor, weight, {}, pose);
+      return pose;
+    };
+    CHECK(difference_of(script.at(1), placed_by({1e-7, 0, 0}, 1)) < 1e-6);
+    CHECK(difference_of(placed_by({0.1, 0, 0}, 1), placed_by({0.1 - 1e-7, 0, 0}, 1)) < 1e-6);
+    const Swing weight{0.05, 0.03, 2, 0};
+    CHECK(worst_rate([&](double t) { return placed_by(weight.at(t), t); }, 1, 1e-4) < 1e-6);
+  }
+}

@@ -74,7 +74,8 @@ inline constexpr std::size_t most_feet_placed = 8;
 /// Puts the feet on the ground. Throws and allocates nothing; places at most `most_feet_placed` feet.
 ///
 /// @param floor    height along up of the floor that the script walks on, m
-/// @param weight   0 leaves the pose as it is, bit for bit; 1 places
+/// @param weight   0 leaves the pose as it is, bit for bit; 1 places; between, feet go part of their way, with the legs
+///                 bent as they must be from 0.1 on
 /// @param weights  one per foot: how much it belongs on the ground; or empty for all 1
 /// @param pose     local motions of all nodes; those of pelvis, legs and feet are changed
 void place_feet(const FootPlacement& placement, const GroundAt& ground, const Sample<double>& floor,

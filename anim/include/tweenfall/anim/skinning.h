@@ -41,9 +41,11 @@ struct Deformation {
 
 /// The arrays for the results: one element per vertex, or empty for results that are not wanted.
 struct DeformedMesh {
-  std::span<Vec3> positions{};      ///< world, m
-  std::span<Vec3> normals{};        ///< world, unit; for meshes with normals
-  std::span<Vec3> tangents{};       ///< world, unit; for meshes with tangents; not made perpendicular to the normal
+  std::span<Vec3> positions{};  ///< world, m
+  std::span<Vec3> normals{};    ///< world, unit; for meshes with normals
+  /// World, unit; for meshes with tangents; not made perpendicular to the normal. The fourth number of the mesh's
+  /// tangent stays valid, except where joints mirror (by a negative scale): there it is the opposite.
+  std::span<Vec3> tangents{};
   std::span<Vec3> velocities{};     ///< m/s
   std::span<Vec3> normal_rates{};   ///< 1/s
   std::span<Vec3> tangent_rates{};  ///< 1/s
