@@ -86,7 +86,8 @@ void Course::find_end() noexcept {
       if (std::isfinite(bound) && direction * (reached - bound) >= 0) {
         Stretch stretch{.from = start, .to = finish, .turn = finish, .direction = direction};
         stretch.phase_from = phase(start);
-        end = direction * (stretch.phase_from - bound) >= 0 ? start : time_of(bound, stretch);
+        // From then on it stands at the bound, whatever its phase rounds to.
+        end = direction * (stretch.phase_from - bound) >= 0 ? start : time_of(bound, stretch, 0);
         end_phase = bound;
         return;
       }
@@ -96,22 +97,26 @@ void Course::find_end() noexcept {
   }
 }
 
-double Course::time_of(double wanted, const Stretch& stretch) const noexcept {
-  if (speed.is_constant()) return std::clamp(origin + (wanted - origin_phase) / speed.at(0), stretch.from, stretch.to);
+double Course::time_of(double wanted, const Stretch& stretch, int most) const noexcept {
+  const auto is_there = [&](double time) { return stretch.direction * (phase(time) - wanted) >= 0; };
+  // Never before the clock is there as it rounds, so that a change at that instant finds it there.
+  const auto steadily = [&](double from, double phase_from, double pace) {
+    double time = from + (wanted - phase_from) / pace;
+    for (int i = 0; i < most && !is_there(time); ++i) time = std::nextafter(time, infinity);
+    return std::clamp(time, stretch.from, stretch.to);
+  };
+  if (speed.is_constant()) return steadily(origin, origin_phase, speed.at(0));
   const std::span<const double> turns = speed.turns();
   const double last_turn = speed_from + turns.back();
-  if (stretch.from >= last_turn) {
-    const double steady = speed.at(turns.back());
-    return std::clamp(last_turn + (wanted - phase(last_turn)) / steady, stretch.from, stretch.to);
-  }
+  if (stretch.from >= last_turn) return steadily(last_turn, phase(last_turn), speed.at(turns.back()));
   // The first time at which the phase is reached. The bounds are always the turns of the speed, whatever is requested,
   // so that an event has only one time.
   double early = stretch.from, late = stretch.turn;
-  if (stretch.direction * (phase(early) - wanted) >= 0) late = early;
+  if (is_there(early)) late = early;
   while (early < late) {
     const double middle = early + (late - early) / 2;
     if (middle <= early || middle >= late) break;
-    (stretch.direction * (phase(middle) - wanted) >= 0 ? late : early) = middle;
+    (is_there(middle) ? late : early) = middle;
   }
   return std::clamp(late, stretch.from, stretch.to);
 }

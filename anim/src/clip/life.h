@@ -14,6 +14,9 @@ namespace clips {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// What happens this soon after a change comes before it, s: a stage has told of it by then.
+inline constexpr double instant = 1e-9;
+
 /// All rounds of a play, one after another: the phase is 0 at their start and `total` at their end.
 struct Rounds {
   double from = 0;    ///< of the section, clip seconds
@@ -54,6 +57,7 @@ struct Stretch {
   double phase_from = 0, phase_to = 0;
   int direction = 1;
   bool first = false;  ///< the clock begins to move here
+  bool told = false;   ///< a change has told which intervals begin here
 };
 
 /// The clock of a play: its phase as a function of time, and the times as functions of the phase.
@@ -70,8 +74,20 @@ class Course {
     return time >= end ? end_phase : std::clamp(phase(std::max(time, at)), rounds.low, rounds.total);
   }
   [[nodiscard]] ClipClock clock(double time, Side side) const noexcept;
-  /// The time at which a stretch reaches a phase within it.
-  [[nodiscard]] double time_of(double wanted, const Stretch& stretch) const noexcept;
+  /// The way that it runs just after `time`; before its start, the way that it will run first.
+  [[nodiscard]] int direction(double time) const noexcept {
+    return time < at ? speed.first_direction() : speed.direction(time - speed_from);
+  }
+  /// The round that it shows just after `time`: where two meet, the one into which it runs.
+  [[nodiscard]] double round_at(double time) const noexcept {
+    if (!rounds.loops()) return 0;
+    const double here = held_phase(time), round = std::floor(here / rounds.length);
+    const bool from_above = here == rounds.total || (direction(time) < 0 && here != rounds.low);
+    return from_above && here == round * rounds.length ? round - 1 : round;
+  }
+  /// The time at which a stretch reaches a phase within it. @param most  numbers by which it may be later, so that the
+  /// clock is there as it rounds
+  [[nodiscard]] double time_of(double wanted, const Stretch& stretch, int most = 16) const noexcept;
   /// The time from which it is in force: `since`, or its start.
   [[nodiscard]] double begin() const noexcept { return std::max(at, since); }
 
@@ -91,14 +107,17 @@ class Course {
       const double natural = next < turns.size() ? speed_from + turns[next] : infinity;
       const double finish = std::min(natural, ends);
       const int direction = speed.direction_after(next);
-      if (direction != 0 && (start < finish || (start == first_move && start < natural))) {
+      // Also one that only begins, as the next change comes: what it meets there is told.
+      const bool begins_here = start == first_move || (start == last && start < end);
+      if (direction != 0 && (start < finish || (begins_here && start < natural))) {
         Stretch stretch{.from = start, .to = finish, .turn = natural, .direction = direction};
         stretch.phase_from = held_phase(start);
         stretch.phase_to = finish == infinity ? direction * infinity : held_phase(finish);
         stretch.first = !moved && start == first_move;
+        stretch.told = start == begins && (moved || start == since);
         if (!visit(stretch)) return;
       }
-      if (natural >= ends || natural > to) return;
+      if (natural > ends || natural == end || natural > to) return;
       start = natural;
     }
   }
@@ -106,6 +125,7 @@ class Course {
   Rounds rounds;
   PlaySpeed speed;
   double since = -infinity;  ///< it is in force from here on, s
+  double met = -infinity;    ///< until when the one before tells what it meets, s: `since`, or just after
   double at = 0;             ///< its start, s
   double origin = 0, origin_phase = 0;
   double speed_from = 0, way_at_origin = 0;  ///< for a speed that is a curve: where that begins
@@ -113,6 +133,23 @@ class Course {
   bool moved = false;                        ///< whether it had moved before `since`
   double first_move = infinity;              ///< when its clock first moves, if it has not moved before
 };
+
+/// An event interval of a clip that contains a phase, with its round.
+struct OpenInterval {
+  std::size_t event;
+  double round;
+  bool operator==(const OpenInterval&) const = default;
+};
+/// The intervals in which a clock is that runs on from a phase: forwards, backwards, or, with 0, not at all.
+[[nodiscard]] std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip, double phase,
+                                                       int direction);
+
+/// What a clock meets when it jumps from one phase to another, as if it ran there; if it moves for the `first` time,
+/// also what is at its own phase.
+/// @param open  the intervals that are open before the jump, and then those open just before it arrives
+[[nodiscard]] std::vector<FiredEvent> passed_events(const Rounds& rounds, const Clip& clip, std::size_t index,
+                                                    double from, double to, bool first, double time,
+                                                    std::vector<OpenInterval>& open);
 
 }  // namespace clips
 
@@ -136,8 +173,15 @@ struct Player::Life : clips::Course {
     return !is_gone(time, side) && (!waits || is_past(at, time, side));
   }
   [[nodiscard]] double over() const noexcept { return std::min(end, stopped); }
-  /// Whether the clock has moved by `time`.
-  [[nodiscard]] bool has_moved(double time) const noexcept { return moved || first_move < time; }
+  /// Whether the clock has moved by `time`, or moves off just then.
+  [[nodiscard]] bool has_moved(double time) const noexcept {
+    return moved || (first_move <= time && first_move < stopped);
+  }
+  /// The intervals that are open just after `time`.
+  [[nodiscard]] std::vector<clips::OpenInterval> open(const Clip& clip, double time) const {
+    if (!has_moved(time) || time >= over()) return {};
+    return clips::open_intervals(rounds, clip, held_phase(time), direction(time));
+  }
 
   Play play;
   std::shared_ptr<const Play> given;  ///< before any change
@@ -173,20 +217,4 @@ void Player::visit_clocks(double from, double to, const Visit& visit) const {
   }
 }
 
-namespace clips {
-
-/// An event interval of a clip that contains a phase, with its round.
-struct OpenInterval {
-  std::size_t event;
-  double round;
-  bool operator==(const OpenInterval&) const = default;
-};
-[[nodiscard]] std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip, double phase);
-
-/// The moments that a clock passes when it jumps from one phase to another; if it moves for the `first` time, also
-/// those at its own phase.
-[[nodiscard]] std::vector<FiredEvent> passed_moments(const Rounds& rounds, const Clip& clip, std::size_t index,
-                                                     double from, double to, bool first, double time);
-
-}  // namespace clips
 }  // namespace tweenfall

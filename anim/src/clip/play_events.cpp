@@ -64,8 +64,9 @@ bool is_turn_again(const Rounds& rounds, double round, double phase) {
 /// The events of one stretch of one play, in the order in which its clock meets them.
 class StretchWalk {
  public:
-  StretchWalk(const Rounds& rounds, const Clip& clip, std::size_t index, const Stretch& stretch)
-      : rounds_(rounds), clip_(clip), index_(index), stretch_(stretch) {}
+  /// @param goes_on  whether the clock runs on the same way where the stretch is cut off
+  StretchWalk(const Rounds& rounds, const Clip& clip, std::size_t index, const Stretch& stretch, bool goes_on)
+      : rounds_(rounds), clip_(clip), index_(index), stretch_(stretch), goes_on_(goes_on) {}
 
   template <class TimeOf>
   void tell_round(double round, const TimeOf& time_of, std::vector<FiredEvent>& fired) const {
@@ -84,28 +85,33 @@ class StretchWalk {
       if (!inside) continue;
       const auto [low, high] = phases_of(rounds_, round, *inside);
       const double entry = up ? low : high, exit = up ? high : low;
-      if (is_between(entry, true)) fire(entry, event, FiredEvent::Kind::begin);
-      if (is_between(exit, false)) fire(exit, event, FiredEvent::Kind::end);
+      if (enters(entry)) fire(entry, event, FiredEvent::Kind::begin);
+      if (reaches(exit)) fire(exit, event, FiredEvent::Kind::end);
     }
   }
 
  private:
-  /// Whether the stretch reaches a phase, with its beginning included or not.
-  [[nodiscard]] bool is_between(double phase, bool with_beginning) const {
-    const double from = stretch_.direction * stretch_.phase_from, to = stretch_.direction * stretch_.phase_to;
-    const double at = stretch_.direction * phase;
-    return with_beginning ? from <= at && at < to : from < at && at <= to;
+  [[nodiscard]] double along(double phase) const { return stretch_.direction * phase; }
+  [[nodiscard]] bool reaches(double phase) const {
+    return along(stretch_.phase_from) < along(phase) && along(phase) <= along(stretch_.phase_to);
+  }
+  /// Whether the clock runs on from a phase: from the first one, unless a change has told what begins there, and from
+  /// the last one, if it goes on.
+  [[nodiscard]] bool enters(double phase) const {
+    const double from = along(stretch_.phase_from), to = along(stretch_.phase_to), at = along(phase);
+    return (stretch_.told ? from < at : from <= at) && (goes_on_ ? at <= to : at < to);
   }
   [[nodiscard]] bool meets(double round, double phase) const {
     const bool begins_here = stretch_.first && phase == stretch_.phase_from;
     if (rounds_.loops() && begins_here) return round == round_ahead(rounds_, phase, stretch_.direction);
-    return !is_turn_again(rounds_, round, phase) && (begins_here || is_between(phase, false));
+    return !is_turn_again(rounds_, round, phase) && (begins_here || reaches(phase));
   }
 
   const Rounds& rounds_;
   const Clip& clip_;
   std::size_t index_;
   const Stretch& stretch_;
+  bool goes_on_;
 };
 
 /// Why the events of a clip are refused.
@@ -120,7 +126,7 @@ std::string refusal(const Play& play, const Clip& clip, double most, const std::
 
 }  // namespace
 
-std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip, double phase) {
+std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip, double phase, int direction) {
   std::vector<OpenInterval> open;
   const Span span = rounds_between(rounds, phase, phase);
   for (double passed = 0; passed <= span.last - span.first; ++passed) {
@@ -130,34 +136,57 @@ std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip,
       const std::optional<Inside> inside = clipped(rounds, clip.events[i]);
       if (!inside) continue;
       const auto [low, high] = phases_of(rounds, round, *inside);
-      if (low < phase && phase < high) open.push_back({i, round});
+      if ((low < phase && phase < high) || (direction > 0 && phase == low) || (direction < 0 && phase == high))
+        open.push_back({i, round});
     }
   }
   return open;
 }
 
-std::vector<FiredEvent> passed_moments(const Rounds& rounds, const Clip& clip, std::size_t index, double from,
-                                       double to, bool first, double time) {
+std::vector<FiredEvent> passed_events(const Rounds& rounds, const Clip& clip, std::size_t index, double from, double to,
+                                      bool first, double time, std::vector<OpenInterval>& open) {
   std::vector<std::pair<double, FiredEvent>> passed;
-  const double direction = to < from ? -1 : 1;
+  const double direction = to < from ? -1 : 1, begin = direction * from, end = direction * to;
+  const auto pass = [&](double way, const ClipEvent& event, FiredEvent::Kind kind) {
+    passed.push_back({way, {time, event.name, event.data, index, kind}});
+  };
+  const auto pass_interval = [&](const OpenInterval& interval, const Inside& phases) {
+    const ClipEvent& event = clip.events[interval.event];
+    const double entry = direction * (direction > 0 ? phases.from : phases.to);
+    const double exit = direction * (direction > 0 ? phases.to : phases.from);
+    const auto known = std::ranges::find(open, interval);
+    bool is_open = known != open.end();
+    if (!is_open && entry < end && (first ? exit > begin : entry >= begin)) {
+      pass(std::max(entry, begin), event, FiredEvent::Kind::begin);
+      open.push_back(interval);
+      is_open = true;
+    }
+    if (!is_open || !(exit < end)) return;
+    pass(exit, event, FiredEvent::Kind::end);
+    std::erase(open, interval);
+  };
   const Span span = rounds_between(rounds, std::min(from, to), std::max(from, to));
   for (double count = 0; count <= span.last - span.first; ++count) {
-    const double round = span.first + count;
-    for (const ClipEvent& event : clip.events) {
-      const std::optional<double> place = event.is_interval() ? std::nullopt : place_of(rounds, event);
+    const double round = direction > 0 ? span.first + count : span.last - count;
+    for (std::size_t i = 0; i < clip.events.size(); ++i) {
+      const ClipEvent& event = clip.events[i];
+      if (event.is_interval()) {
+        if (const std::optional<Inside> inside = clipped(rounds, event))
+          pass_interval({i, round}, phases_of(rounds, round, *inside));
+        continue;
+      }
+      const std::optional<double> place = place_of(rounds, event);
       if (!place) continue;
-      const double phase = rounds.phase_of(round, *place);
+      const double phase = rounds.phase_of(round, *place), way = direction * phase;
       const bool stands = first && phase == from && (!rounds.loops() || round == round_ahead(rounds, from, direction));
-      const bool passes = direction * phase > direction * from && direction * phase <= direction * to &&
-                          !is_turn_again(rounds, round, phase);
-      if (stands || passes)
-        passed.push_back({direction * phase, {time, event.name, event.data, index, FiredEvent::Kind::moment}});
+      const bool passes = way > begin && way <= end && !is_turn_again(rounds, round, phase);
+      if (stands || passes) pass(way, event, FiredEvent::Kind::moment);
     }
   }
   std::ranges::stable_sort(passed, {}, &std::pair<double, FiredEvent>::first);
   std::vector<FiredEvent> events;
   events.reserve(passed.size());
-  for (auto& [phase, event] : passed) events.push_back(std::move(event));
+  for (auto& [way, event] : passed) events.push_back(std::move(event));
   return events;
 }
 
@@ -170,7 +199,7 @@ void Player::visit_events(const Clip& clip, double from, double to, bool from_st
   std::vector<const Life*> lives;
   for (const Life* life = latest_.get(); life; life = life->before.get()) {
     if (life->since <= to) lives.push_back(life);
-    if (life->since < from) break;
+    if (life->met < from) break;
   }
   bool goes_on = true;
   const auto tell = [&](FiredEvent&& event) {
@@ -182,11 +211,17 @@ void Player::visit_events(const Clip& clip, double from, double to, bool from_st
     const Life& life = *lives[i];
     for (const FiredEvent& event : life.told)
       if (!tell(FiredEvent(event))) return;
-    if (!clip.events.empty()) visit_run(life, clip, from, to, i > 0 ? lives[i - 1]->since : clips::infinity, tell);
+    // Nothing comes before what had been told when it took over.
+    const auto tell_later = [&](FiredEvent&& event) {
+      event.time = std::max(event.time, life.met);
+      return tell(std::move(event));
+    };
+    if (!clip.events.empty()) visit_run(life, clip, from, to, i > 0 ? lives[i - 1]->met : clips::infinity, tell_later);
   }
 }
 
-/// What a life's clock meets as it runs, until `last`. @param tell  returns false to end
+/// What a life's clock meets as it runs, until a change at `last`, that instant included.
+/// @param tell  returns false to end
 template <class Tell>
 void Player::visit_run(const Life& life, const Clip& clip, double from, double to, double last, const Tell& tell) {
   bool goes_on = true;
@@ -194,17 +229,18 @@ void Player::visit_run(const Life& life, const Clip& clip, double from, double t
   const std::size_t index = life.play.clip;
   const clips::Rounds& rounds = life.rounds;
   const auto tell_open = [&](double phase, double time, FiredEvent::Kind kind) {
-    for (const clips::OpenInterval& open : clips::open_intervals(rounds, clip, phase)) {
+    const int direction = kind == FiredEvent::Kind::end && life.begin() == time ? life.direction(time) : 0;
+    for (const clips::OpenInterval& open : clips::open_intervals(rounds, clip, phase, direction)) {
       const ClipEvent& event = clip.events[open.event];
       goes_on = goes_on && tell(FiredEvent{time, event.name, event.data, index, kind});
     }
   };
   life.visit_stretches(from, to, std::min(last, life.stopped), [&](const clips::Stretch& stretch) {
-    // Changed or stopped at that instant: the next life begins to move, or none.
-    if (stretch.first && stretch.from >= std::min(last, life.stopped)) return true;
-    if (stretch.first && life.over() > stretch.from)
+    if (stretch.from >= life.stopped) return true;
+    if (stretch.first && !stretch.told && life.over() > stretch.from)
       tell_open(stretch.phase_from, stretch.from, FiredEvent::Kind::begin);
-    const clips::StretchWalk walk(rounds, clip, index, stretch);
+    const bool goes_on_after = stretch.to == last && last < life.over() && last < stretch.turn;
+    const clips::StretchWalk walk(rounds, clip, index, stretch, goes_on_after);
     const auto phase_at = [&](double time) {
       return time <= stretch.from ? stretch.phase_from : time >= stretch.to ? stretch.phase_to : life.phase(time);
     };
@@ -220,9 +256,10 @@ void Player::visit_run(const Life& life, const Clip& clip, double from, double t
     }
     return goes_on;
   });
-  // Intervals that are open when the life is over end then.
+  // Intervals that are open when the life is over end then. Where it had no time to run, those that a change began do.
   const double over = life.over();
-  if (goes_on && over > life.since && over <= last && over >= from && over <= to && life.has_moved(over))
+  if (goes_on && over > life.since && over <= last && over >= from && over <= to &&
+      (life.moved || life.first_move < over))
     tell_open(life.held_phase(over), over, FiredEvent::Kind::end);
 }
 
@@ -242,7 +279,7 @@ std::vector<FiredEvent> Player::events_between(const Clip& clip, double from, do
     if (bound > clips::most_events)
       throw std::length_error(clips::refusal(life->play, clip, clips::most_events,
                                              "from " + number_text(from) + " s to " + number_text(to) + " s"));
-    if (life->since < from) break;
+    if (life->met < from) break;
   }
   std::vector<FiredEvent> fired;
   visit_events(clip, from, to, from_start, [&](FiredEvent&& event) {
@@ -266,8 +303,7 @@ std::optional<FiredEvent> Player::first_event(const Clip& clip, double from, dou
                                  : clips::place_of(life.rounds, event).has_value();
     });
   };
-  for (const Life* life = latest_.get(); life && !tells(*life); life = life->before.get())
-    to = std::min(to, life->since);
+  for (const Life* life = latest_.get(); life && !tells(*life); life = life->before.get()) to = std::min(to, life->met);
   visit_events(clip, from, to, from_start, [&](FiredEvent&& event) {
     if (event.kind == FiredEvent::Kind::end || (name && event.name != *name)) return true;
     first = std::move(event);

@@ -224,10 +224,17 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
   const auto* start = std::get_if<playing::Start>(&action);
   const std::shared_ptr<Life> next = start ? started_anew(*start) : std::make_shared<Life>(old);
   next->before = latest_;
-  next->since = time;
+  next->since = next->met = time;
   next->told.clear();
-  const bool runs = time < old.over();
-  next->moved = old.has_moved(time);
+  const bool leaps =
+      !std::holds_alternative<playing::FadeTo>(action) && !std::holds_alternative<playing::Weigh>(action);
+  if (leaps)
+    visit_events(clip, time, time + clips::instant, false, [&](const FiredEvent& event) {
+      next->met = std::max(next->met, event.time);
+      return true;
+    });
+  const double met = next->met;
+  next->moved = old.has_moved(met);
 
   const auto fade_to = [&](double weight, double seconds, const std::optional<Ease>& ease) {
     clips::require_seconds(seconds);
@@ -242,35 +249,15 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
     next->weight_from = time;
     next->fades_in = false;
   };
-  // The intervals that are left and entered when the clock jumps, or is over.
-  const auto tell_leap = [&](std::size_t clip_index) {
-    const double before_phase = old.held_phase(time), after_phase = next->held_phase(time);
-    const auto before = runs && old.has_moved(time) ? clips::open_intervals(old.rounds, clip, before_phase)
-                                                    : std::vector<clips::OpenInterval>();
-    const auto after = next->moved && !start && next->over() > time
-                           ? clips::open_intervals(next->rounds, clip, after_phase)
-                           : std::vector<clips::OpenInterval>();
-    const auto tell = [&](const auto& list, const auto& others, FiredEvent::Kind kind) {
-      for (const clips::OpenInterval& open : list)
-        if (std::ranges::find(others, open) == others.end()) {
-          const ClipEvent& event = clip.events[open.event];
-          next->told.push_back({time, event.name, event.data, clip_index, kind});
-        }
-    };
-    tell(before, after, FiredEvent::Kind::end);
-    return [=] { tell(after, before, FiredEvent::Kind::begin); };
-  };
+  const std::size_t index = old.play.clip;
+  std::vector<clips::OpenInterval> open = old.open(clip, met);
 
   std::visit(clips::Overloaded{
-                 [&](const playing::Start&) {
-                   next->moved = false;
-                   tell_leap(old.play.clip);
-                 },
+                 [&](const playing::Start&) { next->moved = false; },
                  [&](const playing::Stop& stop) {
                    if (time >= old.stopped) return;
                    if (stop.seconds != 0) fade_to(0, stop.seconds, stop.ease);
                    next->stopped = time + stop.seconds;
-                   tell_leap(old.play.clip);
                  },
                  [&](const playing::FadeTo& fade) {
                    clips::require_weight(fade.weight);
@@ -292,13 +279,12 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
                      speed = PlaySpeed(keyed_curve<double>({{.time = 0, .value = now, .ease = Ease::linear()},
                                                             {.time = set.seconds, .value = speed.at(0)}}));
                    }
-                   if (time >= old.end) return;  // what is over stays over
-                   const double origin = std::max(time, old.at), at_phase = old.held_phase(origin);
+                   if (met >= old.end) return;  // what is over stays over
+                   const double origin = std::max(time, old.at), at_phase = old.held_phase(met);
                    next->speed = next->play.speed = speed;
                    next->speed_from = origin;
                    next->set_origin(origin, at_phase);
                    next->find_end();
-                   tell_leap(old.play.clip);
                  },
                  [&](const playing::Seek& seek) {
                    clips::require_seconds(seek.fade);
@@ -311,31 +297,32 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
                      throw std::invalid_argument("\"" + clip.name + "\" has no time " + number_text(seek.time) +
                                                  " s in the section that is played, " + number_text(rounds.from) +
                                                  " s to " + number_text(last) + " s");
-                   const double now = std::max(time, old.at), phase = old.held_phase(now);
-                   double round = rounds.loops() ? std::floor(phase / rounds.length) : 0;
-                   if (rounds.loops() && phase == rounds.total && phase == round * rounds.length) round -= 1;
-                   const double wanted =
-                       std::clamp(rounds.phase_of(round, seek.time - rounds.from), rounds.low, rounds.total);
-                   next->set_origin(now, wanted);
+                   const double phase = old.held_phase(met);
+                   const double wanted = std::clamp(rounds.phase_of(old.round_at(met), seek.time - rounds.from),
+                                                    rounds.low, rounds.total);
+                   next->set_origin(std::max(time, old.at), wanted);
                    next->find_end();
-                   const bool tells = seek.events && wanted != phase && time < old.stopped, first = !next->moved;
-                   next->moved = next->moved || tells;
-                   const auto enter = tell_leap(old.play.clip);
-                   if (tells) {
-                     auto passed = clips::passed_moments(rounds, clip, old.play.clip, phase, wanted, first, time);
-                     next->told.insert(next->told.end(), passed.begin(), passed.end());
+                   if (seek.events && wanted != phase && time < old.stopped) {
+                     next->told = clips::passed_events(rounds, clip, index, phase, wanted, !next->moved, met, open);
+                     next->moved = true;
                    }
-                   enter();
                  }},
              action);
-  return Player(next);
-}
 
-std::vector<FiredEvent> Player::events_of_change(const Clip& clip) const {
-  Life alone = *latest_;
-  alone.before.reset();
-  const double since = latest_->before ? alone.since : alone.at;
-  return Player(std::make_shared<Life>(alone)).events_between(clip, since, since, true);
+  // The intervals that are left and entered.
+  const auto tell = [&](const clips::OpenInterval& interval, FiredEvent::Kind kind) {
+    const ClipEvent& event = clip.events[interval.event];
+    next->told.push_back({met, event.name, event.data, index, kind});
+  };
+  const std::vector<clips::OpenInterval> after = next->open(clip, time);
+  const auto is_in = [](const std::vector<clips::OpenInterval>& list, const clips::OpenInterval& interval) {
+    return std::ranges::find(list, interval) != list.end();
+  };
+  for (const clips::OpenInterval& interval : open)
+    if (start || !is_in(after, interval)) tell(interval, FiredEvent::Kind::end);
+  for (const clips::OpenInterval& interval : after)
+    if (start || !is_in(open, interval)) tell(interval, FiredEvent::Kind::begin);
+  return Player(next);
 }
 
 double RunningPlay::first_weight_jump(double from, double to) const noexcept {

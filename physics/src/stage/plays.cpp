@@ -76,11 +76,21 @@ void change_animation(StageState& state, const Animation& animation, double inst
 
 void change_play(StageState& state, const PlayChange& change, double step, std::vector<Happening>& happenings) {
   const Animation changed = state.animation->with_change(change);
-  const Player& player = changed.players()[changed.player_named(change.play)];
+  const std::size_t number = changed.player_named(change.play);
+  const Player& player = changed.players()[number];
   const Clip& clip = changed.clips()[player.play().clip];
   const std::string fault = too_many_events(player.play(), clip, step + sliver, most_events_in_step(clip));
   if (!fault.empty()) throw std::invalid_argument(fault);
-  std::vector<FiredEvent> news = player.events_of_change(clip);
+  const double until = std::max(change.time, state.handled);
+  std::vector<FiredEvent> news = player.events_between(clip, change.time, until, true);
+  // A play that there was before has told of this instant.
+  if (number < state.animation->players().size()) {
+    const std::vector<FiredEvent> told =
+        state.animation->players()[number].events_between(clip, change.time, until, true);
+    take_out_twins(news, std::span<const FiredEvent>(told), [](const FiredEvent& event, const FiredEvent& each) {
+      return each.name == event.name && each.data == event.data && each.kind == event.kind;
+    });
+  }
   change_animation(state, changed, change.time, std::move(news), step, happenings);
 }
 

@@ -95,7 +95,7 @@ TEST_CASE("a play that is started and changed at one instant fires what it start
   CHECK(all_told(begun.events_between(clip, 0, 1.1, true)) == "1:start\n");
   const Player again = begun.changed(clip, 2.3, playing::Start{}).changed(clip, 2.3, playing::Weigh{});
   CHECK(all_told(again.events_between(clip, 2.2, 2.4)) ==
-        "2.2999999999999998:loud)\n2.2999999999999998:late)\n2.2999999999999998:start\n");
+        "2.3000000000000003:loud)\n2.3000000000000003:late)\n2.3000000000000003:start\n");
 }
 
 TEST_CASE("an event fires as often as the clock passes it, and then it is there") {
@@ -151,10 +151,105 @@ TEST_CASE("a seek that is asked for events tells each that lies between once, wi
   CHECK(sought({.at = 2}, 0.5, 1) == "0.5:start\n0.5:end\n");
 }
 
+TEST_CASE("a seek that is asked for events meets them in the order of the way, and the intervals that it leaps over") {
+  Clip clip{.name = "walk", .duration = 4};
+  clip.events = {{.from = 0.5, .to = 2, .name = "left", .data = {}},
+                 {.from = 1, .to = 1, .name = "step", .data = {}},
+                 {.from = 2.25, .to = 2.75, .name = "heel", .data = {}},
+                 {.from = 2.5, .to = 4, .name = "right", .data = {}}};
+  const auto sought = [&](double from, double to, bool events) {
+    const Play play{.from = 0, .offset = from};
+    const Player player = Player(play, clip).changed(clip, 0.125, playing::Seek{.time = to, .events = events});
+    std::string names;
+    for (const FiredEvent& event : player.events_between(clip, 0.0625, 0.125))
+      names += event.name + (event.kind == FiredEvent::Kind::begin ? "( "
+                             : event.kind == FiredEvent::Kind::end ? ") "
+                                                                   : " ");
+    return names;
+  };
+  CHECK(sought(0, 3, true) == "left( step left) heel( right( heel) ");
+  CHECK(sought(0, 3, false) == "right( ");
+  CHECK(sought(3, 0.25, true) == "heel( right) heel) left( step left) ");
+  CHECK(sought(3, 0.75, true) == "heel( right) heel) left( step ");
+  CHECK(sought(3, 0.75, false) == "right) left( ");
+  // Onto the edges: what begins where it goes on has begun, and what ends there is over.
+  CHECK(sought(0, 0.5, false) == "left( ");
+  CHECK(sought(0, 0.5, true) == "left( ");
+  CHECK(sought(0.625, 2, false) == "left) ");
+  CHECK(sought(3, 2, true) == "heel( right) heel) ");
+  CHECK(sought(0.625, 0.625, true) == "");
+}
+
+TEST_CASE("a seek where two rounds meet goes on in the one into which the clock runs") {
+  Clip clip{.name = "walk", .duration = 1};
+  clip.events = {{.from = 0.25, .to = 0.25, .name = "step", .data = {}}};
+  const auto after = [&](LoopMode mode, double to, bool events) {
+    const Play play{.speed = -1, .loop = Loop{mode, 3}};
+    const Player player = Player(play, clip).changed(clip, 1, playing::Seek{.time = to, .events = events});
+    CHECK(player.clock(1).cycle == 1);
+    CHECK(player.clock(1).time == to);
+    return all_told(player.events_between(clip, 0.875, 5)) + "end " + std::to_string(player.end());
+  };
+  CHECK(after(LoopMode::repeat, 0.5, false) == "1.25:step\n2.25:step\nend 2.500000");
+  CHECK(after(LoopMode::repeat, 0.5, true) == "1.25:step\n2.25:step\nend 2.500000");
+  CHECK(after(LoopMode::repeat, 0.125, true) == "1:step\n1.875:step\nend 2.125000");
+  // From the end of the second round, which runs from 1 to 0, to 0.5 and on.
+  CHECK(after(LoopMode::pingpong, 0.5, true) == "1:step\n2.25:step\nend 2.500000");
+  const Player endless = Player({.speed = -1, .loop = Loop{LoopMode::repeat, 0}}, clip)
+                             .changed(clip, 0, playing::Seek{.time = 0.5, .events = true});
+  CHECK(all_told(endless.events_between(clip, 0, 1, true)) == "0.25:step\n");
+}
+
+TEST_CASE("what a play tells of an instant stays told when it is changed then, and what had begun ends") {
+  Clip clip{.name = "walk", .duration = 2};
+  clip.events = {{.from = 0, .to = 0, .name = "start", .data = {}},
+                 {.from = 0.5, .to = 0.5, .name = "step", .data = {}},
+                 {.from = 0.5, .to = 1, .name = "loud", .data = {}}};
+  const Player player(Play{}, clip);
+  const auto changed = [&](double time, const PlayAction& action) {
+    return all_told(player.changed(clip, time, action).events_between(clip, 0, 2.25, true));
+  };
+  const std::string begun = "0:start\n0.5:step\n0.5:loud(\n";
+  CHECK(changed(0.5, playing::Weigh{{{0, 0.5}}}) == begun + "1:loud)\n");
+  CHECK(changed(0.5, playing::SetSpeed{{{0, 2}}}) == begun + "0.75:loud)\n");
+  CHECK(changed(0.5, playing::SetSpeed{{{0, 0}}}) == begun + "0.5:loud)\n");
+  CHECK(changed(0.5, playing::SetSpeed{{{0, -1}}}) == begun + "0.5:loud)\n1:start\n");
+  CHECK(changed(0.5, playing::Seek{1.5}) == begun + "0.5:loud)\n");
+  CHECK(changed(0.5, playing::Stop{}) == begun + "0.5:loud)\n");
+  CHECK(changed(0, playing::Seek{0.5}) == "0:start\n0:loud(\n0.5:loud)\n");
+  CHECK(changed(0, playing::Stop{}) == "0:start\n");
+}
+
+TEST_CASE("a change at the very time of an event, as it rounds, neither loses nor repeats one") {
+  Random random(47);
+  std::size_t asked = 0;
+  for (int i = 0; i < 3000; ++i) {
+    CAPTURE(i);
+    const Clip clip = clip_with_events(random.between(0.3, 2), Loop{LoopMode::repeat, 0});
+    const Play play{.at = random.between(0, 2), .speed = random.between(-3, 3), .offset = random.between(0, 40)};
+    const Player player(play, clip);
+    const std::vector<FiredEvent> whole = player.events_between(clip, 0, 8, true);
+    if (whole.empty()) continue;
+    const double time = whole[random.bits() % whole.size()].time;
+    // As a stage tells them: until the change, at it, and on from there.
+    const Player same = player.changed(clip, time, playing::SetSpeed{.speed = {{0, play.speed.at(0)}}});
+    const std::size_t before = player.events_between(clip, 0, time, true).size();
+    CHECK(same.events_between(clip, 0, time, true).size() == before);
+    const std::vector<FiredEvent> after = same.events_between(clip, time, 8);
+    REQUIRE(before + after.size() == whole.size());
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      CHECK(after[k].name == whole[before + k].name);
+      CHECK(near(after[k].time, whole[before + k].time, 1e-12));
+    }
+    ++asked;
+  }
+  CHECK(asked > 2000);
+}
+
 TEST_CASE("a play that is stopped fires nothing, neither by a seek nor where it would begin to move") {
   const Clip clip = clip_with_events(2);
   const Player resting = Player({.speed = 0}, clip).changed(clip, 1, playing::Stop{});
   CHECK(resting.changed(clip, 1, playing::SetSpeed{}).events_between(clip, 0, 9, true).empty());
   CHECK(resting.changed(clip, 3, playing::Seek{.time = 2, .events = true}).events_between(clip, 0, 9, true).empty());
-  CHECK(Player({.at = 1}, clip).changed(clip, 1, playing::Stop{}).events_between(clip, 0, 9, true).empty());
+  CHECK(Player({.at = 1}, clip).changed(clip, 0.5, playing::Stop{}).events_between(clip, 0, 9, true).empty());
 }

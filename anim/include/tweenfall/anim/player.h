@@ -187,8 +187,6 @@ class Player {
   [[nodiscard]] std::span<const PlaySection> sections() const noexcept;
   /// The same, with the moments of a clip for each of `sections()`.
   [[nodiscard]] std::optional<PlayMeeting> first_meeting(std::span<const Clip> clips, double from, double to) const;
-  /// The events that the last change itself fires: those where it starts, and ends of intervals that a jump crosses.
-  [[nodiscard]] std::vector<FiredEvent> events_of_change(const Clip& clip) const;
   /// Calls `visit` with each event of `events_between` until it returns false.
   void visit_events(const Clip& clip, double from, double to, bool from_start,
                     const std::function<bool(FiredEvent&&)>& visit) const;
