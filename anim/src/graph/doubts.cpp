@@ -62,12 +62,35 @@ std::optional<Nothing> first_nothing(const BlendPose& blend, const GraphDescript
   return found;
 }
 
+/// The states of a machine to which no transitions lead, by number.
+std::vector<std::size_t> unreached(const MachinePose& machine) {
+  std::vector<std::string> reached{machine.start};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (const GraphTransition& transition : machine.transitions) {
+      const bool leaves =
+          transition.from.empty() || std::ranges::find(transition.from, reached[i]) != transition.from.end();
+      if (leaves && std::ranges::find(reached, transition.to) == reached.end()) reached.push_back(transition.to);
+    }
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < machine.states.size(); ++i)
+    if (std::ranges::find(reached, machine.states[i].name) == reached.end()) others.push_back(i);
+  return others;
+}
+
+void doubt_machine(const GraphPose& pose, const MachinePose& machine, std::vector<GraphFault>& doubts) {
+  for (const std::size_t state : unreached(machine))
+    doubts.push_back({{"poses", pose.name, "machine", "states", machine.states[state].name},
+                      "never shows: no transition leads to it from \"" + machine.start +
+                          "\", the start, nor from a state that one leads to"});
+}
+
 }  // namespace
 }  // namespace graphs
 
 std::vector<GraphFault> doubts_about(const GraphDescription& description) {
   std::vector<GraphFault> doubts;
   for (const GraphPose& pose : description.poses) {
+    if (const auto* machine = std::get_if<MachinePose>(&pose.operation)) graphs::doubt_machine(pose, *machine, doubts);
     const auto* blend = std::get_if<BlendPose>(&pose.operation);
     if (!blend) continue;
     const std::optional<graphs::Nothing> nothing = graphs::first_nothing(*blend, description);

@@ -52,6 +52,38 @@ TEST_CASE("a drive that nothing above its body can carry along is noted") {
   CHECK(noted("", below_a, rule).empty());
 }
 
+TEST_CASE("fades longer than their play are noted") {
+  const auto noted = [](const std::string& play) {
+    return notes_of(
+        R"({"tweenfall": 1, "nodes": {"a": {}}, "clips": {"c": {"duration": 2, "tracks": {"a.position.x": [[0, 0], [2, 1]]}}},
+      "play": [{"clip": "c", )" +
+        play + "}]}");
+  };
+  CHECK(has(noted("\"fade_in\": 2.5"), "takes 2.5 s, but the play is over after 2 s"));
+  CHECK(has(noted("\"fade_in\": 2.5"), "(at /play/0/fade_in)"));
+  CHECK(has(noted("\"fade_out\": 1.5, \"speed\": 2"), "the play is over after 1 s"));
+  CHECK(noted("\"fade_in\": 2, \"fade_out\": 2").empty());
+  CHECK(noted("\"fade_in\": 3.5, \"loop\": \"repeat\", \"count\": 2").empty());
+  CHECK(noted("\"fade_in\": 35, \"loop\": \"repeat\"").empty());
+}
+
+TEST_CASE("states of a machine that never show are noted") {
+  const auto noted = [](const std::string& transitions) {
+    return notes_of(
+        R"({"tweenfall": 1, "nodes": {"a": {}}, "graphs": {"g": {"parameters": {"p": 0}, "poses": {"low": {"rest": true},
+      "m": {"machine": {"start": "s", "states": {"s": "low", "t": "low", "u": "low"}, "transitions": [)" +
+        transitions + "]}}}}}}");
+  };
+  const std::string to_t = R"({"from": "s", "to": "t", "when": {"parameter": "p", "above": 1}})";
+  const std::string u_and_back = R"({"from": "u", "to": "s", "when": {"parameter": "p", "above": 2}})";
+  const std::string never = noted(to_t + ", " + u_and_back);
+  CHECK(has(never, "never shows: no transition leads to it from \"s\""));
+  CHECK(has(never, "(at /graphs/g/poses/m/machine/states/u)"));
+  CHECK_FALSE(has(never, "states/t)"));
+  CHECK(noted(to_t + R"(, {"from": "t", "to": "u"})").empty());
+  CHECK(noted(to_t + R"(, {"to": "u", "when": {"parameter": "p", "below": -1}})").empty());
+}
+
 TEST_CASE("a property that nothing reads is noted with the one of ours that it stands for") {
   const auto noted = [](const std::string& property) {
     return notes_of("{\"tweenfall\": 1, \"clips\": {\"c\": {\"tracks\": {\"lamp." + property + "\": [[0, 1]]}}}}");

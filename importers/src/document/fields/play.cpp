@@ -204,4 +204,12 @@ std::optional<Play> read_play(const json::Value& value, Building& building) {
   return play;
 }
 
+json::Value place_of_fade_in(const json::Value& play) {
+  return below(play, {"fade_in"});
+}
+
+json::Value place_of_fade_out(const json::Value& play) {
+  return below(play, {"fade_out"});
+}
+
 }  // namespace tweenfall::document::fields

@@ -44,6 +44,8 @@ const Form* owner_form(FormStore& store, const ValueForms& values);
 const Form* play_form(FormStore& store, const ValueForms& values);
 // Empty for an unknown clip, which was reported.
 [[nodiscard]] std::optional<Play> read_play(const json::Value& play, Building& building);
+[[nodiscard]] json::Value place_of_fade_in(const json::Value& play);
+[[nodiscard]] json::Value place_of_fade_out(const json::Value& play);
 
 // A way to loop, or {"mode", "count"}; a play may also say "once".
 const Form* loop_form(FormStore& store, const ValueForms& values);

@@ -96,6 +96,18 @@ void note_recorded_events(Building& building, const json::Value& place, const Pl
                                "loop, or end the recording earlier");
 }
 
+// A play that is over before its weight has come, or has begun to go before it started.
+void note_long_fades(Building& building, const json::Value& place, const Play& play) {
+  const double lasts = end_time(play, building.stage.clips[play.clip]) - play.at;
+  const auto judge_fade = [&](const Fade& fade, const json::Value& where) {
+    if (!(fade.seconds > lasts * (1 + 1e-9))) return;
+    building.problems.note(where, "takes " + brief_text(fade.seconds) + " s, but the play is over after " +
+                                      brief_text(lasts) + " s: it never has its whole weight");
+  };
+  judge_fade(play.fade_in, fields::place_of_fade_in(place));
+  judge_fade(play.fade_out, fields::place_of_fade_out(place));
+}
+
 // Keys after the stated end of a clip are never reached.
 void note_late_ends(Building& building, const Clip& clip) {
   const json::Value clips = usable(building.root, "clips"), own = clips ? usable(clips, clip.name) : clips;
@@ -125,6 +137,7 @@ void judge_pace(Building& building) {
       building.problems.add(list.items()[i], fault);
     else
       note_recorded_events(building, list.items()[i], play, length);
+    note_long_fades(building, list.items()[i], play);
   }
   if (!list && stage.clips.size() == 1)
     note_recorded_events(building, place_of_clip(building, stage.clips[0].name), {}, length);
