@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <variant>
 
@@ -12,6 +13,21 @@ namespace tweenfall::islands {
 using state::Body;
 
 namespace {
+
+/// Blows that joints hand on between bodies of like masses leave hardly more energy than they had.
+constexpr double much_lighter = 10;
+
+/// Whether a body that moves has `much_lighter` times the mass of another.
+bool has_unlike(const IslandContents& island, const std::vector<Body>& bodies) {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (const joints::JointLink* link : island.joints)
+    for (const std::uint32_t index : {link->a, link->b}) {
+      if (index == joints::JointLink::world || bodies[index].immovable()) continue;
+      least = std::min(least, bodies[index].mass().mass);
+      greatest = std::max(greatest, bodies[index].mass().mass);
+    }
+  return greatest > much_lighter * least;
+}
 
 /// The bodies of an island that its solver moved, in order, each once.
 class Held {
@@ -83,7 +99,7 @@ bool gives_energy(const JointKind& kind) {
 
 void bound_jointed(const IslandContents& island, std::vector<Body>& bodies, const std::vector<forces::Load>& loads,
                    const std::vector<char>& moved, const std::function<FreeStart(std::uint32_t)>& start_of) {
-  if (island.joints.empty() || !island.springs.empty()) return;
+  if (island.joints.empty() || !island.springs.empty() || !has_unlike(island, bodies)) return;
   const Held held(island, bodies, moved);
   if (!held.held || !held.passive) return;
   double before = 0, work = 0, most = 0, after = 0;
