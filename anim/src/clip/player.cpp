@@ -228,11 +228,14 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
   next->told.clear();
   const bool leaps =
       !std::holds_alternative<playing::FadeTo>(action) && !std::holds_alternative<playing::Weigh>(action);
-  if (leaps)
+  if (leaps) {
+    constexpr int most = 10'000;
+    int count = 0;
     visit_events(clip, time, time + clips::instant, false, [&](const FiredEvent& event) {
       next->met = std::max(next->met, event.time);
-      return true;
+      return ++count < most;
     });
+  }
   const double met = next->met;
   next->moved = old.has_moved(met);
 

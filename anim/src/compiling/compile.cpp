@@ -283,8 +283,8 @@ void check(const Clip& clip, const CrowdSettings& settings) {
           "the tolerance of a crowd must be > 0 and finite; it is " + number_text(settings.tolerance) + " m");
   require(settings.arm >= 0 && std::isfinite(settings.arm),
           "the arm of a crowd's joints must be >= 0 and finite; it is " + number_text(settings.arm) + " m");
-  require(settings.rounds >= 1,
-          "a crowd must keep its tolerance for 1 round or more; it is told " + std::to_string(settings.rounds));
+  require(settings.rounds >= 1 && settings.rounds <= 100'000'000,
+          "a crowd can keep its tolerance for 1 to 100 million rounds; it is told " + std::to_string(settings.rounds));
   require(clip.duration >= 0 && std::isfinite(clip.duration),
           "clip \"" + clip.name + "\" cannot be compiled for a crowd, for it has no end: its duration is " +
               number_text(clip.duration) + " s");

@@ -260,7 +260,7 @@ TWEENFALL_CROWD_LANES void compose_all(const std::uint32_t* order, const std::ui
   }
 }
 
-// The same source for each instruction set. None of them fuses a multiplication and an addition, so the bits are the
+// The same source for each instruction set. The compiler fuses no multiplication with an addition, so the bits are the
 // same.
 #define TWEENFALL_CROWD_VERSIONS(name, target)                                                                   \
   target void blend_##name(const CrowdLayer* layers, std::size_t layer_count, float portion, std::size_t groups, \

@@ -221,7 +221,7 @@ TWEENFALL_CROWD_LANES void all_runs(const CompiledClip& clip, std::span<const Ru
   for (const RunPlace& place : places) whole_run<rates>(clip, *place.run, place, pose, moving);
 }
 
-// The same source for each instruction set. None of them fuses a multiplication and an addition, so the bits are the
+// The same source for each instruction set. The compiler fuses no multiplication with an addition, so the bits are the
 // same.
 #define TWEENFALL_CROWD_VERSIONS(name, target)                                                                    \
   target void pose_##name(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose) {         \

@@ -172,7 +172,7 @@ TWEENFALL_CROWD_LANES void skin_all(const SkinWork& work) {
     work.normals ? skin_blocks<false, true>(work) : skin_blocks<false, false>(work);
 }
 
-// The same source for each instruction set. None of them fuses a multiplication and an addition, so the bits are the
+// The same source for each instruction set. The compiler fuses no multiplication with an addition, so the bits are the
 // same.
 #define TWEENFALL_CROWD_VERSIONS(name, target)    \
   target void skin_##name(const SkinWork& work) { \

@@ -64,6 +64,8 @@ std::optional<Nothing> first_nothing(const BlendPose& blend, const GraphDescript
 
 /// The states of a machine to which no transitions lead, by number.
 std::vector<std::size_t> unreached(const MachinePose& machine) {
+  // Where the start is missing, that is the fault to be told.
+  if (std::ranges::find(machine.states, machine.start, &MachinePose::State::name) == machine.states.end()) return {};
   std::vector<std::string> reached{machine.start};
   for (std::size_t i = 0; i < reached.size(); ++i)
     for (const GraphTransition& transition : machine.transitions) {
@@ -80,8 +82,7 @@ std::vector<std::size_t> unreached(const MachinePose& machine) {
 void doubt_machine(const GraphPose& pose, const MachinePose& machine, std::vector<GraphFault>& doubts) {
   for (const std::size_t state : unreached(machine))
     doubts.push_back({{"poses", pose.name, "machine", "states", machine.states[state].name},
-                      "never shows: no transition leads to it from \"" + machine.start +
-                          "\", the start, nor from a state that one leads to"});
+                      "never shows: no transitions lead to it from the start, \"" + machine.start + "\""});
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "islands/jointed_energy.h"
+#include "joints/kinds/kinds.h"
 
 namespace tweenfall::islands {
 
@@ -104,7 +104,7 @@ bool FreeIslands::gather(const IslandContents& island, const std::vector<Body>& 
     for (const std::uint32_t index : {link->a, link->b}) {
       Member& member = members_[slot_of(index)];
       member.gripped = member.jointed = true;
-      member.driven = member.driven || gives_energy(link->joint->settings.kind);
+      member.driven = member.driven || joints::gives_energy(link->joint->settings.kind);
     }
   }
   for (const contacts::ContactConstraint* contact : island.contacts) {

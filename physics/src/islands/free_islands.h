@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "islands/islands.h"
 
 namespace tweenfall::islands {
+
+/// Relative gain of energy of jointed bodies in a step that passes for an error of the step.
+inline constexpr double passable_gain = 0.01;
 
 /// Where a body was and how it moved at the start of a step.
 struct FreeStart {
@@ -20,7 +24,8 @@ struct FreeStart {
 /// the bodies were when the contact was found, joints hold only up to their remaining gaps, and the bodies move on
 /// while the impulses are being computed: the error this leaves is given back to all of them together as a turn about
 /// their common center of mass, which no contact feels, and its energy is taken from their other motion. That center
-/// moves as their momentum says; contacts alone add no energy to the motion relative to it.
+/// moves as their momentum says; contacts add no energy to the motion relative to it, and joints without motors and
+/// springs no more than `passable_gain` of it.
 class FreeIslands {
  public:
   /// Call it before the bodies of a step.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <variant>
 
 #include "islands/handed_back.h"
+#include "joints/kinds/kinds.h"
 
 namespace tweenfall::islands {
 
@@ -48,7 +48,7 @@ class Held {
       else
         end(link->a, true);
       end(link->b, true);
-      passive = passive && !gives_energy(link->joint->settings.kind);
+      passive = passive && !joints::gives_energy(link->joint->settings.kind);
     }
     std::sort(free.begin(), free.end());
     free.erase(std::unique(free.begin(), free.end()), free.end());
@@ -79,26 +79,8 @@ double energy_of(const Body& body, const Quat& rotation, const Twist& twist) {
 
 }  // namespace
 
-bool gives_energy(const JointKind& kind) {
-  return std::visit(
-      [](const auto& its) {
-        using Kind = std::decay_t<decltype(its)>;
-        const auto is_soft = [](const std::optional<Limits>& limits) { return limits && limits->hz > 0; };
-        if constexpr (requires { its.motor; })
-          if (its.motor) return true;
-        if constexpr (requires { its.limits.has_value(); })
-          if (is_soft(its.limits)) return true;
-        if constexpr (std::is_same_v<Kind, UniversalJoint>)
-          return its.first_motor || its.second_motor || is_soft(its.first_limits) || is_soft(its.second_limits);
-        if constexpr (std::is_same_v<Kind, SwingTwistJoint>) return its.toward.has_value() || its.twist.hz > 0;
-        if constexpr (std::is_same_v<Kind, DistanceJoint>) return its.limits.hz > 0;
-        return std::is_same_v<Kind, SpringJoint> || std::is_same_v<Kind, WheelJoint>;
-      },
-      kind);
-}
-
 void bound_jointed(const IslandContents& island, std::vector<Body>& bodies, const std::vector<forces::Load>& loads,
-                   const std::vector<char>& moved, const std::function<FreeStart(std::uint32_t)>& start_of) {
+                   const std::vector<char>& moved, double dt, const std::function<FreeStart(std::uint32_t)>& start_of) {
   if (island.joints.empty() || !island.springs.empty() || !has_unlike(island, bodies)) return;
   const Held held(island, bodies, moved);
   if (!held.held || !held.passive) return;
@@ -108,8 +90,9 @@ void bound_jointed(const IslandContents& island, std::vector<Body>& bodies, cons
     const forces::Load& load = loads[index];
     if (body.drive.owner() == Owner::driven || load.torque != Vec3::Zero()) return;
     const FreeStart start = start_of(index);
-    const Vec3 moved_by = body.center - start.center;
-    const double fallen = 0.5 * body.mass().mass * (load.acceleration + load.end_acceleration).dot(moved_by);
+    // What corrections of overlaps and of joints move a body takes no speed from it.
+    const Vec3 way = 0.5 * dt * (start.twist.linear + body.twist.linear);
+    const double fallen = 0.5 * body.mass().mass * (load.acceleration + load.end_acceleration).dot(way);
     before += energy_of(body, start.rotation, start.twist);
     work += fallen;
     most += std::abs(fallen);

@@ -265,7 +265,7 @@ void World::Implementation::solve_islands(double dt) {
   for (const islands::IslandContents& island : all)
     if (!goes_by_strategies(island)) free_islands.keep(island, bodies, loads, moved, settings.integrator, dt, start_of);
   for (const islands::IslandContents& island : all)
-    if (!goes_by_strategies(island)) islands::bound_jointed(island, bodies, loads, moved, start_of);
+    if (!goes_by_strategies(island)) islands::bound_jointed(island, bodies, loads, moved, dt, start_of);
   if (std::any_of(solvers.begin(), solvers.begin() + static_cast<std::ptrdiff_t>(shares),
                   [](const step::Solvers& one) { return one.many.shifts(); }))
     for (const islands::IslandContents& island : all)

@@ -77,7 +77,7 @@ TEST_CASE("states of a machine that never show are noted") {
   const std::string to_t = R"({"from": "s", "to": "t", "when": {"parameter": "p", "above": 1}})";
   const std::string u_and_back = R"({"from": "u", "to": "s", "when": {"parameter": "p", "above": 2}})";
   const std::string never = noted(to_t + ", " + u_and_back);
-  CHECK(has(never, "never shows: no transition leads to it from \"s\""));
+  CHECK(has(never, "never shows: no transitions lead to it from the start, \"s\""));
   CHECK(has(never, "(at /graphs/g/poses/m/machine/states/u)"));
   CHECK_FALSE(has(never, "states/t)"));
   CHECK(noted(to_t + R"(, {"from": "t", "to": "u"})").empty());

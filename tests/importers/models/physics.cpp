@@ -339,6 +339,7 @@ TEST_CASE("who passes through whom, and who follows a script, goes through glTF"
       "a": {"position": [-1, 0.4, 0], "body": {"shape": {"sphere": {"radius": 0.2}}}},
       "b": {"position": [0, 0.4, 0], "body": {"shape": {"sphere": {"radius": 0.2}}}},
       "c": {"position": [1, 0.4, 0], "body": {"shape": {"sphere": {"radius": 0.2}}, "groups": ["light"], "collides_with": ["light"]}},
+      "d": {"position": [2.5, 0.4, 0], "body": {"shape": {"sphere": {"radius": 0.2}}, "groups": []}},
       "lift": {"position": [2, 1, 0], "body": {"shape": {"box": {"size": [0.2, 0.2, 0.2]}}}}},
     "clips": {"up": {"tracks": {"lift.position": [[0, [2, 1, 0]], [1, [2, 2, 0]]]}}}})";
   const Document document = Document::parse(text, "sieve.json", folder.path());
@@ -355,7 +356,9 @@ TEST_CASE("who passes through whom, and who follows a script, goes through glTF"
                                    {"a", "b"},
                                    {"b", "c"},
                                    {"b", "lift"},
-                                   {"c", "lift"}}) {
+                                   {"c", "lift"},
+                                   {"shelf", "d"},
+                                   {"b", "d"}}) {
     CAPTURE(one);
     CAPTURE(other);
     CHECK(second.collides(node(one), node(other)) == stage.collides(stage.node(one), stage.node(other)));

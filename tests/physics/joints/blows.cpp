@@ -94,3 +94,22 @@ TEST_CASE("a splinter hinged between the ground and what is a thousand times as 
   MESSAGE("most energy: " << most << " of that at the start");
   CHECK(most < 1.02);
 }
+
+TEST_CASE("a figure with a light part that starts in the ground slides on as fast as it came") {
+  World world;
+  world.add({.shape = {Plane{}}, .friction = 0, .fixed = true});
+  const auto box = [&](double half, double mass, const Vec3& at) {
+    BodySettings body;
+    body.shape.solid = Box{Vec3(half, half, half)};
+    body.mass = mass;
+    body.friction = 0;
+    body.motion.pose.position = at;
+    body.motion.twist.linear = Vec3(1, 0, 0);
+    return world.add(body);
+  };
+  const BodyId big = box(0.5, 1, {0, 0.4, 0}), small = box(0.2, 0.05, {0.8, 0.4, 0});
+  world.add_joint(ball_between(world, big, small, {0.55, 0.4, 0}));
+  for (int i = 0; i < 180; ++i) world.step(1.0 / 60);
+  CHECK(world.motion(big).pose.position.x() > 2.9);
+  CHECK(world.motion(big).twist.linear.x() > 0.9);
+}

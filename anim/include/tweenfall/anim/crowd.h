@@ -25,8 +25,8 @@ struct CrowdSettings {
   double tolerance = 1e-4;
   /// The points measured lie this far from each joint along each axis, m; >= 0. Choose the size of attached things.
   double arm = 0.1;
-  /// So many rounds of a loop with offset keep the tolerance, forwards or backwards; >= 1. What moves on from round to
-  /// round makes the figure larger, or gets so far away that floats are coarse; then errors grow, as
+  /// So many rounds of a loop with offset keep the tolerance, forwards or backwards; 1 to 100 million. What moves on
+  /// from round to round makes the figure larger, or gets so far away that floats are coarse; then errors grow, as
   /// `CrowdClip::error` tells.
   int rounds = 1;
   /// Use the least memory; sampling then takes half as long again.
@@ -49,9 +49,10 @@ class CrowdClip {
   [[nodiscard]] const Loop& loop() const noexcept;
   /// Bound on the distance from the exact path at any time, m, of the points that the settings define. It is measured
   /// at all knots, several times between two of them, and more often where it is large; 3 % and the roundings of floats
-  /// are added for what lies between.
-  /// @param round  the `cycle` of a clock. In loops with offset the bound grows evenly with the distance from round 0,
-  ///               and holds for 100 million rounds; else all rounds are alike.
+  /// are added for what lies between, which random clips have not exceeded. What a formula does and undoes between two
+  /// measured times is not seen.
+  /// @param round  the `cycle` of a clock. In loops with offset the bound grows by the same amount from each round to
+  ///               the next, forwards and backwards, and holds for 100 million rounds; else all rounds are alike.
   [[nodiscard]] double error(int round = 0) const noexcept;
   [[nodiscard]] std::size_t byte_count() const noexcept;  ///< the size of what `to_bytes` returns
 

@@ -96,16 +96,17 @@ void note_recorded_events(Building& building, const json::Value& place, const Pl
                                "loop, or end the recording earlier");
 }
 
-// A play that is over before its weight has come, or has begun to go before it started.
+// A play that is over before its weight has come, or whose weight would have to go before it starts.
 void note_long_fades(Building& building, const json::Value& place, const Play& play) {
   const double lasts = end_time(play, building.stage.clips[play.clip]) - play.at;
-  const auto judge_fade = [&](const Fade& fade, const json::Value& where) {
+  const auto judge_fade = [&](const Fade& fade, const json::Value& where, const char* so) {
     if (!(fade.seconds > lasts * (1 + 1e-9))) return;
     building.problems.note(where, "takes " + brief_text(fade.seconds) + " s, but the play is over after " +
-                                      brief_text(lasts) + " s: it never has its whole weight");
+                                      brief_text(lasts) + " s: " + so);
   };
-  judge_fade(play.fade_in, fields::place_of_fade_in(place));
-  judge_fade(play.fade_out, fields::place_of_fade_out(place));
+  judge_fade(play.fade_in, fields::place_of_fade_in(place),
+             "its whole weight comes only later, if it still shows then");
+  judge_fade(play.fade_out, fields::place_of_fade_out(place), "it never has its whole weight");
 }
 
 // Keys after the stated end of a clip are never reached.

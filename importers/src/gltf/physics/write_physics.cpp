@@ -258,7 +258,10 @@ class PhysicsWriter {
       for (const std::size_t other : passes->second) apart.push_back(own_system(other));
     // Where others do not collide with the first group, its bodies must name it.
     if (groups == 1 && in.size() == 1 && apart.empty() && (shunned_ & 1) == 0) return {};
-    Json filter{{"collisionSystems", in}};
+    Json filter = Json::object();
+    if (!in.empty()) filter["collisionSystems"] = in;
+    // A body in no group meets nothing.
+    if (groups == 0) filter["collideWithSystems"] = Json::array();
     if (!apart.empty()) filter["notCollideWithSystems"] = apart;
     return filter;
   }

@@ -54,6 +54,9 @@ constexpr double narrow_ellipse = 0.5;
 /// Rows of a `SwingTwistJoint`, after those of its point. Bounds are pairs, the lower first; the cone is an upper one.
 constexpr std::uint8_t row_of_cone = 4, row_of_end = 5, row_of_twist = 7;
 
+/// Whether a motor or a spring of it may give energy to the bodies that a joint holds.
+[[nodiscard]] bool gives_energy(const JointKind& kind);
+
 /// The value of an angle within -pi to pi that is nearest to the last one, whole turns included.
 [[nodiscard]] double unwrapped(double angle, double last);
 /// How far a rotation turns about the x axis: its twist, rad.
