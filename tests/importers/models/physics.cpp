@@ -359,8 +359,8 @@ TEST_CASE("who passes through whom, and who follows a script, goes through glTF"
                                    {"c", "lift"},
                                    {"shelf", "d"},
                                    {"b", "d"}}) {
-    CAPTURE(one);
-    CAPTURE(other);
+    const std::string names = std::string(one) + " and " + other;
+    CAPTURE(names);
     CHECK(second.collides(node(one), node(other)) == stage.collides(stage.node(one), stage.node(other)));
   }
   CHECK(second.owner(node("lift")) == Owner::keyed);
