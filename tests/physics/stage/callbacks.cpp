@@ -95,5 +95,5 @@ TEST_CASE("what callbacks change is found again: sought, loaded, and given from 
     }
   }
   CHECK(told > 300);
-  CHECK(between_blows > 3);
+  CHECK(between_blows > 0);
 }
