@@ -125,6 +125,17 @@ void add_climbs(CompiledClip& clip, const ExactPose& exact) {
   }
 }
 
+/// The cost of reading a slot from a further row, in lines per knot. Small clips fit the cache anyway: in these time
+/// counts more.
+double line_for_row(const std::vector<FittedChannel>& fits, bool smallest) {
+  constexpr double of_large = 0.06, of_small = 0.24, large = 8000;  // knots of all channels
+  if (smallest) return 0;
+  double knots = 0;
+  for (const FittedChannel& channel : fits)
+    if (channel.fit.knots.size() > 1) knots += static_cast<double>(channel.fit.knots.size());
+  return std::clamp(of_large * large / knots, of_large, of_small);
+}
+
 /// The clips that fitted channels make for different steps. Few of them differ: what was made once is kept.
 class Assembly {
  public:
@@ -137,7 +148,12 @@ class Assembly {
 
   Assembly(const ExactPose& exact, const std::vector<FittedChannel>& fits, const Reach& reach,
            const CrowdSettings& settings)
-      : exact_(exact), fits_(fits), reach_(reach), settings_(settings), surveys_(surveys_of(fits)) {
+      : exact_(exact),
+        fits_(fits),
+        reach_(reach),
+        settings_(settings),
+        surveys_(surveys_of(fits)),
+        line_for_row_(line_for_row(fits, settings.smallest)) {
     std::map<std::vector<double>, std::uint32_t> numbers;
     timelines_.reserve(fits.size());
     for (const FittedChannel& channel : fits)
@@ -155,7 +171,7 @@ class Assembly {
     for (std::size_t i = 0; i < fits_.size(); ++i) {
       const FittedChannel& channel = fits_[i];
       const Steps steps = steps_for(channel.fit, rooms(reach_, channel.group, channel.fit.kind, share));
-      std::vector<Way>& of_channel = choices.emplace_back(surveys_[i].ways(steps, settings_.smallest));
+      std::vector<Way>& of_channel = choices.emplace_back(surveys_[i].ways(steps, line_for_row_));
       if (of_channel.front().form.is_constant()) continue;
       std::uint32_t& number = numbers[timelines_[i]];
       if (number == unused) {
@@ -196,6 +212,7 @@ class Assembly {
   const Reach& reach_;
   const CrowdSettings& settings_;
   std::vector<Survey> surveys_;
+  double line_for_row_;
   std::vector<std::uint32_t> timelines_;  // by channel: the same number for the same knots
   std::deque<Made> made_;
 };

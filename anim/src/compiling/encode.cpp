@@ -11,8 +11,6 @@ namespace tweenfall::crowd {
 
 namespace {
 
-/// The cost of reading a slot from a further row, in lines per knot.
-constexpr double line_for_row = 0.06;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// A sequence of numbers as whole numbers of steps from an offset.
@@ -187,7 +185,7 @@ Survey::Survey(const Fitted& fitted) : fitted_(&fitted) {
   }
 }
 
-std::vector<Way> Survey::ways(const Steps& steps, bool smallest) const {
+std::vector<Way> Survey::ways(const Steps& steps, double line_for_row) const {
   const std::size_t count = components(fitted_->kind), knots = fitted_->knots.size();
   const auto all_within = [&](const Extents& extents, const auto& within) {
     for (std::size_t i = 0; i < extents.size(); ++i)
@@ -208,7 +206,7 @@ std::vector<Way> Survey::ways(const Steps& steps, bool smallest) const {
     const std::size_t lines = form.base_rows(knots) * form.lines(form.base, count) +
                               knots * form.lines(form.fine, count) + form.slots(count) * form.numbers_per_slot();
     const std::size_t rows = (form.base != Packing::none ? 4 : 0) + (form.fine != Packing::none ? 2 : 0);
-    const double time = smallest ? 0 : line_for_row * static_cast<double>(knots * rows * form.slots(count));
+    const double time = line_for_row * static_cast<double>(knots * rows * form.slots(count));
     all.push_back({form, static_cast<double>(lines) + time});
   };
   const bool cubic = fitted_->cubic;

@@ -43,8 +43,8 @@ class Survey {
   explicit Survey(const Fitted& fitted);
 
   /// All ways in which no number is further off than about half its step; at least one.
-  /// @param smallest only memory counts, not time
-  [[nodiscard]] std::vector<Way> ways(const Steps& steps, bool smallest) const;
+  /// @param line_for_row  the cost of reading a slot from a further row, in lines per knot
+  [[nodiscard]] std::vector<Way> ways(const Steps& steps, double line_for_row) const;
 
  private:
   /// Half the range of a sequence of numbers, and its largest magnitude.
