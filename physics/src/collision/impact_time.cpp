@@ -22,7 +22,8 @@ double swing_of(const Body& body, const Vec3& angular) {
   const double spin = angular.norm();
   if (spin == 0 || std::isinf(body.radius())) return 0;
   // A ball's surface does not move when it spins about its center.
-  if (std::holds_alternative<Sphere>(body.shape().solid)) return 0;
+  if (std::holds_alternative<Sphere>(body.shape().solid) && body.mass().center == body.shape().offset.position)
+    return 0;
   return spin * body.radius();
 }
 
