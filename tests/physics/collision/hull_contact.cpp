@@ -274,3 +274,30 @@ TEST_CASE("many-sided hulls meet each other as the round solids that they stand 
     CHECK(near(greatest_depth(on_box), 0.01, 1e-12));
   }
 }
+
+TEST_CASE("a cylinder that lies on a wide floor touches it along its line, however lightly") {
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 20 : -20, i & 2 ? 0 : -2, i & 4 ? 20 : -20);
+  const Shape box{Box{{20, 1, 20}}, {.position = Vec3(0, -1, 0)}}, hull{Hull{ConvexHull(corners)}};
+  test::Random random(1);
+  for (const Shape& floor : {box, hull})
+    for (const double depth : {1e-3, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 0.0, -1e-9, -1e-7, -1e-5})
+      for (int i = 0; i < 100; ++i) {
+        const double around = random.between(-3, 3), about = random.between(-3, 3);
+        const Quat lying = Quat(Eigen::AngleAxisd(around, Vec3::UnitY())) *
+                           Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitX())) *
+                           Quat(Eigen::AngleAxisd(about, Vec3::UnitY()));
+        const Pose pose{.position = Vec3(random.between(-10, 10), 0.2 - depth, random.between(-10, 10)),
+                        .rotation = lying};
+        CAPTURE(depth);
+        CAPTURE(i);
+        const Manifold manifold = collide(floor, Pose{}, {Cylinder{0.2, 0.3}}, pose, 1e-3);
+        REQUIRE(manifold.count == 2);
+        CHECK(near(manifold.normal, Vec3(0, 1, 0), 1e-12));
+        const Vec3 along = lying * Vec3(0, 0.3, 0), below(pose.position.x(), -0.5 * depth, pose.position.z());
+        const bool first = (manifold.points[0].position - below).dot(along) > 0;
+        CHECK(near(manifold.points[first ? 0 : 1].position, Vec3(below + along), 1e-12));
+        CHECK(near(manifold.points[first ? 1 : 0].position, Vec3(below - along), 1e-12));
+        for (std::size_t k = 0; k < 2; ++k) CHECK(near(manifold.points[k].penetration, depth, 1e-12));
+      }
+}

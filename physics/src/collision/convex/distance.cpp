@@ -10,6 +10,8 @@ namespace tweenfall::convex {
 namespace {
 
 constexpr int most_searches = 128;
+/// The distance, in parts of all their extent, below which its direction may be rounded too much.
+constexpr double rounded_off = 1e-6;
 
 /// A point of a minus one of b.
 struct SimplexPoint {
@@ -163,14 +165,15 @@ Nearness nearness_of(Core& a, Core& b, double enough) {
   NearestSimplex simplex;
   Vec3 nearest = a.shift - b.shift;
   if (!(nearest.squaredNorm() > 0)) nearest = Vec3(1, 0, 0);
-  double square = 1e300;
+  double square = 1e300, lowest = 0;
   Nearness nearness;
   for (int i = 0; i < most_searches; ++i) {
     SimplexPoint point;
     point.on_a = a.support(-nearest);
     point.on_b = b.support(nearest);
     point.apart = point.on_a - point.on_b;
-    const double length = nearest.norm(), lowest = nearest.dot(point.apart) / length;
+    const double length = nearest.norm();
+    lowest = nearest.dot(point.apart) / length;
     if (lowest > enough) {
       nearness.distance = lowest;
       nearness.normal = -nearest / length;
@@ -193,6 +196,9 @@ Nearness nearness_of(Core& a, Core& b, double enough) {
     if (!(square > touching * touching)) return {};
   }
   nearness.distance = nearest.norm();
+  // So near to each other, rounding turns the direction, and far from there a plane across it need not lie between
+  // them.
+  if (nearness.distance < rounded_off * extent && lowest < nearness.distance - touching) return {};
   nearness.normal = -nearest / nearness.distance;
   simplex.tell(nearness);
   return nearness;
