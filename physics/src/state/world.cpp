@@ -48,6 +48,7 @@ void World::Implementation::wake(std::uint32_t index) {
 }
 
 void World::Implementation::drop_contacts(std::uint32_t index) {
+  const auto from = static_cast<std::ptrdiff_t>(gone_contacts.size());
   for (const std::uint32_t place : memories.of(index)) {
     const state::ContactMemory& memory = memories[place];
     if (memory.is(state::ContactMemory::touching) && !memory.is(state::ContactMemory::gone))
@@ -59,6 +60,11 @@ void World::Implementation::drop_contacts(std::uint32_t index) {
     if (goes) gone_contacts.push_back({contact.a, contact.b});
     return goes;
   });
+  // Bodies that touched with several parts ended one contact.
+  const auto pair_of = [](const EndedContact& contact) { return pairs::Pair(contact.a.index, contact.b.index); };
+  std::ranges::sort(gone_contacts.begin() + from, gone_contacts.end(), {}, pair_of);
+  const auto same = std::ranges::unique(gone_contacts.begin() + from, gone_contacts.end(), {}, pair_of);
+  gone_contacts.erase(same.begin(), same.end());
   told.forget();
 }
 

@@ -181,6 +181,22 @@ TEST_CASE("a contact that ends is told once, by rising, by being ignored, and by
   CHECK(world.ended_contacts().empty());
 }
 
+TEST_CASE("two bodies that touched with several parts end one contact when one of them is removed") {
+  std::vector<Shape> legs;
+  for (const double x : {-0.3, 0.3})
+    for (const double z : {-0.3, 0.3}) legs.push_back({Box{{0.05, 0.2, 0.05}}, {.position = Vec3(x, 0.2, z)}});
+  World world;
+  const BodyId floor = world.add({.shape = {Plane{}}, .fixed = true});
+  const BodyId stool = world.add({.shape = {Compound(legs)}});
+  world.step(0.01);
+  REQUIRE(world.contacts().size() == 4);
+  world.remove(stool);
+  world.step(0.01);
+  REQUIRE(world.ended_contacts().size() == 1);
+  CHECK(world.ended_contacts()[0].a == floor);
+  CHECK(world.ended_contacts()[0].b == stool);
+}
+
 TEST_CASE("who began and did not end touches, step after step, in a heap that tumbles") {
   World world;
   test::Random random(6);
