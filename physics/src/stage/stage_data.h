@@ -220,7 +220,7 @@ struct StageState {
   std::vector<std::size_t> body_of;               ///< by node; `no_body` for none
   std::vector<NodeId> node_of;                    ///< by index of the world's body
   std::vector<NodeId> first_child, next_sibling;  ///< by node; `no_node` for none
-  std::vector<std::uint32_t> presses;  ///< by index of the world's body: contacts with an impulse in the last piece
+  std::vector<std::uint32_t> presses;  ///< by index of the world's body: with how many it pressed in the last piece
   std::vector<std::shared_ptr<const Rule>> rules;
   std::vector<ArmedRule> armed;                    ///< by body, then by rule
   std::size_t gone_rules = 0;                      ///< of `armed`

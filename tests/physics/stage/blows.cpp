@@ -95,6 +95,37 @@ TEST_CASE("a reported blow is the whole blow, wherever in a step it falls") {
   }
 }
 
+TEST_CASE("what lands on several of its parts gives one blow, the whole of it") {
+  std::vector<Shape> legs;
+  for (const double x : {-0.3, 0.3})
+    for (const double z : {-0.3, 0.3}) legs.push_back({Box{{0.05, 0.2, 0.05}}, {.position = Vec3(x, 0.2, z)}});
+  for (const double restitution : {0.0, 0.5, 1.0})
+    for (const double step : {1.0 / 60, 1.0 / 240}) {
+      CAPTURE(restitution);
+      CAPTURE(step);
+      StageDescription stage;
+      stage.step = step;
+      stage.nodes = {{.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}},
+                     {.name = "stool",
+                      .rest = {.position = {0, 1.27, 0}},
+                      .body = BodyDescription{.shape = {Compound(legs)}, .mass = 2.0, .restitution = restitution}}};
+      const double whole = 2 * (1 + restitution) * std::sqrt(2 * 9.81 * 1.27);
+      Stage run(stage);
+      run.advance_to(0.6);
+      REQUIRE(run.events().size() == 1);
+      CHECK(run.events()[0].impulse == doctest::Approx(whole).epsilon(2e-4));
+      CHECK(run.events()[0].time == doctest::Approx(std::sqrt(2 * 1.27 / 9.81)).epsilon(1e-6));
+      // No leg takes as much alone.
+      for (const double share : {0.99, 1.05}) {
+        CAPTURE(share);
+        stage.rules = {on_contact("stool", {.impulse = share * whole}, Drive::keyed())};
+        Stage ruled(stage);
+        ruled.advance_to(0.6);
+        CHECK(ruled.handoffs().size() == (share < 1 ? 1 : 0));
+      }
+    }
+}
+
 TEST_CASE("a reported blow is none of the weight that presses on, wherever in a step it falls and on what") {
   for (const bool on_box : {false, true})
     for (const double step : {1.0 / 30, 1.0 / 240})

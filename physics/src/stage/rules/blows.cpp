@@ -53,24 +53,44 @@ std::pair<std::uint32_t, std::uint32_t> pair_of(const Blow& blow) {
   return {blow.a.index, blow.b.index};
 }
 
-/// The blow that is still going on between the bodies of a contact; null for none.
-const Blow* blow_of(const StageState& state, const Contact& contact) {
-  const auto found = std::ranges::lower_bound(state.blows, std::pair(contact.a.index, contact.b.index), {}, pair_of);
-  return found != state.blows.end() && found->a == contact.a && found->b == contact.b ? &*found : nullptr;
+/// The blow that is still going on between two bodies, the one with the smaller index first; null for none.
+const Blow* blow_of(const StageState& state, BodyId a, BodyId b) {
+  const auto found = std::ranges::lower_bound(state.blows, std::pair(a.index, b.index), {}, pair_of);
+  return found != state.blows.end() && found->a == a && found->b == b ? &*found : nullptr;
+}
+
+/// Calls `visit` with the contacts of each pair of bodies: several where several parts of them touch.
+template <class Visit>
+void visit_pairs(std::span<const Contact> contacts, const Visit& visit) {
+  for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
+    while (end < contacts.size() && contacts[end].a == contacts[begin].a && contacts[end].b == contacts[begin].b) ++end;
+    visit(contacts.subspan(begin, end - begin));
+  }
+}
+
+bool pressing(const Contact& contact) {
+  return contact.impulse > 0;
 }
 
 /// Everything that touched the body in the last piece; a blow that is still going on counts with its impulse so far.
 std::vector<Touch> touches(const StageState& state, const ContactsByBody& contacts, BodyId body) {
   std::vector<Touch> found;
+  const std::span<const Contact> all = state.world.contacts();
   for (const std::size_t place : contacts.of(body)) {
-    const Contact& contact = state.world.contacts()[place];
+    const Contact& contact = all[place];
     if (!(contact.impulse > 0)) continue;
-    Touch touch{contact.a == body ? contact.b : contact.a, contact.impulse, contact.approach_speed};
-    if (const Blow* blow = blow_of(state, contact)) {
-      touch.impulse = std::max(touch.impulse, blow->impulse);
-      touch.speed = std::max(touch.speed, blow->speed);
-    }
-    found.push_back(touch);
+    const BodyId other = contact.a == body ? contact.b : contact.a;
+    // Contacts of several parts follow one another, and are one touch.
+    if (found.empty() || found.back().other != other) found.push_back({other});
+    found.back().impulse += contact.impulse;
+    found.back().speed = std::max(found.back().speed, contact.approach_speed);
+  }
+  for (Touch& touch : found) {
+    const bool first = body.index < touch.other.index;
+    const Blow* blow = blow_of(state, first ? body : touch.other, first ? touch.other : body);
+    if (!blow) continue;
+    touch.impulse = std::max(touch.impulse, blow->impulse);
+    touch.speed = std::max(touch.speed, blow->speed);
   }
   return found;
 }
@@ -162,6 +182,7 @@ double faster_than_weight(const StageState& state) {
 /// How much of a contact's impulse was the blow. What presses on for the rest of the piece is weight: without the
 /// contact the two would have closed at the speed of the impact plus what they would have fallen after it, and the
 /// same mass accounts for both parts. If the two part again, nothing was weight.
+/// @param contact  presses
 double part_of_blow(const StageState& state, const Contact& contact, const std::vector<Twist>& before, double dt) {
   constexpr double parts = 1e-3;  // of the speed at which they met
   const World& world = state.world;
@@ -173,8 +194,7 @@ double part_of_blow(const StageState& state, const Contact& contact, const std::
   const double least = contact.approach_speed > 0 ? contact.approach_speed : faster_than_weight(state) * dt;
   if (parting > parts * least) return 1;
   const auto falls = [&](BodyId body) {
-    const std::uint32_t own = contact.impulse > 0 ? 1 : 0;
-    return world.owner(body) == Owner::free && !world.is_fixed(body) && state.presses[body.index] == own;
+    return world.owner(body) == Owner::free && !world.is_fixed(body) && state.presses[body.index] == 1;
   };
   const Vec3 apart =
       (falls(contact.b) ? state.gravity : Vec3(0, 0, 0)) - (falls(contact.a) ? state.gravity : Vec3(0, 0, 0));
@@ -230,27 +250,30 @@ void follow_blows(StageState& state, const PieceStart& before, double step, std:
   };
   const auto now = [&](BodyId body) { return state.world.twist(body); };
   std::vector<char> met(state.blows.size(), 0);
-  for (const Contact& contact : state.world.contacts()) {
-    const Blow* known = blow_of(state, contact);
-    const bool goes_on = known != nullptr;
+  visit_pairs(state.world.contacts(), [&](std::span<const Contact> contacts) {
+    const Blow* known = blow_of(state, contacts[0].a, contacts[0].b);
+    const bool goes_on = known != nullptr, presses = std::ranges::any_of(contacts, pressing);
     if (goes_on) met[static_cast<std::size_t>(known - state.blows.data())] = 1;
-    if (!goes_on && !contact.began) continue;
-    if (!goes_on && !(contact.impulse > 0)) continue;
-    Blow blow = goes_on ? *known : Blow{.a = contact.a, .b = contact.b, .began = state.time};
-    if (!goes_on) blow.met = time_of_impact(state, contact, before);
-    if (contact.impulse > 0) blow.impulse += contact.impulse * part_of_blow(state, contact, before.twists, dt);
-    blow.speed = std::max(blow.speed, contact.approach_speed);
-    const double closing = closing_speed(state.world, contact, now);
+    if (!goes_on && !(presses && std::ranges::any_of(contacts, &Contact::began))) return;
+    Blow blow = goes_on ? *known : Blow{.a = contacts[0].a, .b = contacts[0].b, .began = state.time};
+    if (!goes_on)
+      blow.met = time_of_impact(state, *std::ranges::max_element(contacts, {}, &Contact::approach_speed), before);
+    double closing = 0;
+    for (const Contact& contact : contacts) {
+      if (pressing(contact)) blow.impulse += contact.impulse * part_of_blow(state, contact, before.twists, dt);
+      blow.speed = std::max(blow.speed, contact.approach_speed);
+      closing = std::max(closing, closing_speed(state.world, contact, now));
+    }
     if (blow.impulse > 0) {
       if (state.time - blow.began < 0.999 * step && closing > closes * blow.speed)
         going_on.push_back(blow);
       else
         tell(blow);
-    } else if (contact.impulse > 0 && closing > faster_than_weight(state) * dt) {
+    } else if (presses && closing > faster_than_weight(state) * dt) {
       blow.began = state.time;  // only grazed so far: a body that swings in fast strikes in the next piece
       going_on.push_back(blow);
     }
-  }
+  });
   for (std::size_t i = 0; i < met.size(); ++i)
     if (!met[i] && state.blows[i].impulse > 0 && state.world.contains(state.blows[i].a) &&
         state.world.contains(state.blows[i].b))
@@ -269,9 +292,10 @@ void step_told_world(StageState& state, double end, double step, std::vector<Hap
   state.time = end;
   particles.take(state);
   state.presses.assign(state.node_of.size(), 0);
-  for (const Contact& contact : state.world.contacts())
-    if (contact.impulse > 0)
-      for (const BodyId body : {contact.a, contact.b}) ++state.presses[body.index];
+  visit_pairs(state.world.contacts(), [&](std::span<const Contact> contacts) {
+    if (std::ranges::any_of(contacts, pressing))
+      for (const BodyId body : {contacts[0].a, contacts[0].b}) ++state.presses[body.index];
+  });
   for (StagedBody& body : state.bodies)
     if (body.present)
       body.saturated_for = state.world.saturated(body.id) ? body.saturated_for + (end - before.time) : 0;
