@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -24,6 +25,16 @@ void require_points(std::span<const Vec3> points, const char* what) {
       throw std::invalid_argument(std::string(what) + " around points needs finite ones, but point " +
                                   std::to_string(i) + " is (" + number_text(points[i].x()) + ", " +
                                   number_text(points[i].y()) + ", " + number_text(points[i].z()) + ")");
+}
+
+/// The diagonal of the box around them along the axes, m.
+double extent_of(std::span<const Vec3> points) {
+  Vec3 low = points.front(), high = low;
+  for (const Vec3& point : points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return (high - low).norm();
 }
 
 /// The point farthest along a direction; of equal ones the first.
@@ -49,6 +60,27 @@ std::vector<std::size_t> outermost(std::span<const Vec3> points) {
   return chosen;
 }
 
+/// The point for which `measure` is greatest; of equal ones the first.
+template <class Measure>
+std::size_t greatest(std::span<const Vec3> points, const Measure& measure) {
+  const auto found = std::ranges::max_element(points, {}, measure);
+  return static_cast<std::size_t>(found - points.begin());
+}
+
+/// Four points: the one farthest from the first point, the one farthest from that, the one farthest from the line of
+/// both, and the one farthest from the plane of these.
+std::vector<std::size_t> widest(std::span<const Vec3> points) {
+  const auto from = [&](const Vec3& place) {
+    return greatest(points, [&](const Vec3& point) { return (point - place).norm(); });
+  };
+  const std::size_t a = from(points.front()), b = from(points[a]);
+  const Vec3 along = points[b] - points[a];
+  const std::size_t c = greatest(points, [&](const Vec3& point) { return along.cross(point - points[a]).norm(); });
+  const Vec3 normal = along.cross(points[c] - points[a]);
+  const std::size_t d = greatest(points, [&](const Vec3& point) { return std::abs(normal.dot(point - points[a])); });
+  return {a, b, c, d};
+}
+
 ConvexHull hull_of_chosen(std::span<const Vec3> points, std::vector<std::size_t>& chosen) {
   std::ranges::sort(chosen);
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
@@ -56,6 +88,14 @@ ConvexHull hull_of_chosen(std::span<const Vec3> points, std::vector<std::size_t>
   places.reserve(chosen.size());
   for (const std::size_t index : chosen) places.push_back(points[index]);
   return ConvexHull(places);
+}
+
+std::optional<ConvexHull> hull_if_any(std::span<const Vec3> points, std::vector<std::size_t>& chosen) {
+  try {
+    return hull_of_chosen(points, chosen);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
 }
 
 /// A point that sticks out of a hull.
@@ -136,13 +176,15 @@ ConvexHull hull_around(std::span<const Vec3> points, std::size_t most) {
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     if (chosen.size() > most) chosen.resize(most);
   }
-  ConvexHull hull = shapes::hull_of_chosen(points, chosen);
-  Vec3 low = points.front(), high = low;
-  for (const Vec3& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
+  std::optional<ConvexHull> begun = shapes::hull_if_any(points, chosen);
+  if (!begun) {
+    // In a needle or a sheet that lies aslant, the same few points are the outermost ones in all of these directions.
+    chosen = shapes::widest(points);
+    begun = shapes::hull_if_any(points, chosen);
   }
-  const double noise = 1e-6 * (high - low).norm();
+  if (!begun) return ConvexHull(points);  // throws what is wrong with all of them
+  ConvexHull hull = *begun;
+  const double noise = 1e-6 * shapes::extent_of(points);
   while (chosen.size() < most) {
     const std::vector<shapes::Outlier> outliers = shapes::outliers_of(hull, points, noise);
     if (outliers.empty()) break;
@@ -192,9 +234,15 @@ Shape capsule_around(std::span<const Vec3> points, const std::optional<Vec3>& al
   }
   const std::optional<shapes::FittedCapsule> fitted = shapes::fitted_capsule(points, unit);
   if (!fitted) throw std::invalid_argument("a capsule around points needs some that span a volume");
+  const double extent = shapes::extent_of(points);
+  if (!(extent > 0 && fitted->capsule.radius > 1e-6 * extent))
+    throw std::invalid_argument("a capsule around points needs some beside its axis, but all " +
+                                std::to_string(points.size()) + " points lie " +
+                                (extent > 0 ? "on one straight line" : "at one place"));
   Shape shape{fitted->capsule, {}};
   shape.offset.position = fitted->center;
   shape.offset.rotation = normalized(shapes::turn_onto(Vec3(0, 1, 0), fitted->axis));
+  validate(shape.solid);
   return shape;
 }
 

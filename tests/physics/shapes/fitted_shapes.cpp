@@ -115,4 +115,48 @@ TEST_CASE("the capsule around the points of a capsule is nearly that capsule") {
   CHECK_THROWS_WITH((void)capsule_around(points, Vec3(0, 0, 0)), "the axis of a capsule must be finite and not zero");
 }
 
+TEST_CASE("points that lie on one line or at one place have no capsule, whatever their size and turn") {
+  Random random(5);
+  for (const double size : {1e-6, 1.0, 1e6}) {
+    const Vec3 along = size * random.vector(1), place = size * random.vector(3);
+    std::vector<Vec3> line, sheet;
+    for (int i = 0; i < 200; ++i) {
+      line.emplace_back(place + random.between(-1, 1) * along);
+      sheet.emplace_back(place + random.between(-1, 1) * along + random.between(-1, 1) * size * Vec3(0, 0, 1));
+    }
+    CHECK_THROWS_WITH(
+        (void)capsule_around(line),
+        "a capsule around points needs some beside its axis, but all 200 points lie on one straight line");
+    CHECK_THROWS_WITH((void)capsule_around(std::vector<Vec3>(20, place)),
+                      "a capsule around points needs some beside its axis, but all 20 points lie at one place");
+    CHECK(std::get<Capsule>(capsule_around(sheet).solid).radius > 0.01 * size);
+  }
+  CHECK_THROWS_AS((void)capsule_around(std::vector<Vec3>{{0, 0, 0}, {1e200, 0, 0}, {0, 1e200, 0}, {0, 0, 1e200}}),
+                  std::invalid_argument);
+}
+
+TEST_CASE("a hull of few vertices is found around a needle and a sheet that lie aslant") {
+  Random random(6);
+  const Vec3 thin(1, 1e-4, 1e-4), flat(1, 1e-4, 1);
+  for (const Vec3& stretch : {thin, flat})
+    for (int i = 0; i < 20; ++i) {
+      const Quat turn = random.rotation();
+      std::vector<Vec3> points;
+      for (int k = 0; k < 200; ++k) points.emplace_back(turn * random.vector(1).cwiseProduct(stretch));
+      const ConvexHull hull = hull_around(points, 32);
+      CHECK(hull.vertices().size() >= 8);
+      // Along the needle and across it, it is as wide as the points.
+      for (int axis = 0; axis < 3; ++axis) {
+        double of_points = 0, of_hull = 0;
+        for (const Vec3& point : points) of_points = std::max(of_points, (turn * Vec3::Unit(axis)).dot(point));
+        for (const Vec3& vertex : hull.vertices()) of_hull = std::max(of_hull, (turn * Vec3::Unit(axis)).dot(vertex));
+        CHECK(of_hull > 0.8 * of_points);
+      }
+    }
+  std::vector<Vec3> line;
+  for (int k = 0; k < 300; ++k) line.emplace_back(k * 0.01, k * 0.02, k * -0.03);
+  CHECK_THROWS_WITH((void)hull_around(line, 32),
+                    "a convex hull needs points that enclose a volume, but all 300 points lie on one straight line");
+}
+
 }  // namespace tweenfall::test::fitting
