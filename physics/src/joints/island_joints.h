@@ -33,18 +33,19 @@ class IslandJoints {
   /// One pass over all joints, forward or backward.
   /// @param moving  errors are being corrected
   void solve(std::vector<blocks::BodyLanes>& velocities, bool moving, bool backward);
-  /// Marks the bodies that a joint acts on in this sub-step. Calls `anchored(place)` for those with an active joint
-  /// whose other end is immovable.
+  /// Marks the bodies that a joint acts on in this sub-step. Calls `anchored(place)` for those that can move and have
+  /// an active joint whose other end cannot.
   template <class Anchored>
   void find_held(std::vector<blocks::IslandBody>& island, const Anchored& anchored) const {
     each([&](const FigureGroup& group, std::uint32_t place, int lane) {
       if (!group.acts(place, lane)) return;
       const Entry& entry = joints_[group.joint(place, lane)];
       island[entry.a].jointed = island[entry.b].jointed = true;
-      // Pulleys hang on nothing that moves.
+      // Pulleys hang on nothing that moves. What cannot move is of no island.
       const bool hangs = std::holds_alternative<PulleyJoint>(entry.joint->settings.kind);
-      if (hangs || !moves(island, entry.a)) anchored(entry.b);
-      if (hangs || !moves(island, entry.b)) anchored(entry.a);
+      const bool a_moves = moves(island, entry.a), b_moves = moves(island, entry.b);
+      if (b_moves && (hangs || !a_moves)) anchored(entry.b);
+      if (a_moves && (hangs || !b_moves)) anchored(entry.a);
     });
   }
   /// Calls `acts(place, place)` with both ends of each joint that acts in this sub-step.

@@ -366,11 +366,12 @@ std::vector<contacts::ContactConstraint> World::Implementation::solve_as_usual(d
 }
 
 void World::Implementation::solve_by_impacts(double dt) {
+  std::vector<char> usual;
+  const std::vector<contacts::ContactConstraint> solved = solve_as_usual(dt, usual);
+  // Only now: what is solved as usual by more threads makes more solvers.
   solvers.resize(std::max<std::size_t>(1, solvers.size()));
   strategies::IslandByStrategies& by = solvers[0].strategies;
   strategies::Sums sums;
-  std::vector<char> usual;
-  const std::vector<contacts::ContactConstraint> solved = solve_as_usual(dt, usual);
   complementarity = 0;
   const double soon = strategies::meets_now * dt;
   double left = dt;

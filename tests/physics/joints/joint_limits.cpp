@@ -2,6 +2,7 @@
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 
 #include "physics/joints/joint_scene.h"
@@ -276,6 +277,27 @@ TEST_CASE("a copy of a jointed world steps to the same bits, and a far one chang
     alone.step(1.0 / 120);
     copy.step(1.0 / 120);
     REQUIRE(alone.state_hash() == copy.state_hash());
+  }
+}
+
+TEST_CASE("two jointed bodies fall through air to the same bits beside a weight on a pulley") {
+  World alone(awake), beside(awake);
+  std::array<BodyId, 2> firsts;
+  for (World* world : {&alone, &beside}) {
+    const BodyId first = add_box(*world, Vec3(0, 50, 0), Vec3(0.2, 0.1, 0.1), 1);
+    const BodyId second = add_box(*world, Vec3(0.5, 50, 0), Vec3(0.2, 0.1, 0.1), 3);
+    world->add_force(Drag{.linear = 0.5}, {.bodies = {first, second}});
+    join(*world, first, second, Vec3(0.25, 50, 0), HingeJoint{}, Vec3(0, 0, 1));
+    firsts[world == &alone ? 0 : 1] = first;
+  }
+  JointSettings pulley{.b = add_box(beside, Vec3(300, 0, 0), Vec3(0.2, 0.2, 0.2), 1)};
+  pulley.frame_a.position = Vec3(302, 0, 0);
+  pulley.kind = PulleyJoint{.pulley_a = Vec3(302, 5, 0), .pulley_b = Vec3(300, 5, 0)};
+  beside.add_joint(pulley);
+  for (int i = 0; i < 30; ++i) {
+    alone.step(1.0 / 60);
+    beside.step(1.0 / 60);
+    REQUIRE(beside.motion(firsts[1]).pose.position == alone.motion(firsts[0]).pose.position);
   }
 }
 

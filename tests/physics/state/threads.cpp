@@ -1,4 +1,5 @@
 #include <tweenfall/physics/executor.h>
+#include <tweenfall/physics/strategies.h>
 
 #include <atomic>
 #include <thread>
@@ -49,6 +50,30 @@ TEST_CASE("any number of threads, and parts done in any order, end every step in
       }
     }
     CHECK(others.back().save() == alone.save());
+  }
+}
+
+TEST_CASE("times of impact beside many pendulums are found to the same bits by any number of threads") {
+  WorldSettings settings;
+  settings.collision = Detection::time_of_impact;
+  World alone(settings);
+  alone.add({.shape = {Box{{100, 1, 100}}}, .fixed = true, .motion = {.pose = {.position = {0, -1, 0}}}});
+  for (int i = 0; i < 40; ++i) {
+    BodySettings ball{.shape = {Sphere{0.2}}, .restitution = 0.8};
+    ball.motion.pose.position = Vec3(i, 1 + 0.05 * i, 0);
+    alone.add(ball);
+    ball.motion.pose.position.z() = 5;
+    JointSettings joint{.b = alone.add(ball)};
+    joint.frame_a.position = Vec3(i + 0.5, 1 + 0.05 * i, 5);
+    joint.frame_b.position = Vec3(0.5, 0, 0);
+    alone.add_joint(joint);
+  }
+  World shared = with_threads(alone, 2);
+  for (int n = 0; n < 90; ++n) {
+    CAPTURE(n);
+    alone.step(1.0 / 60);
+    shared.step(1.0 / 60);
+    REQUIRE(shared.state_hash() == alone.state_hash());
   }
 }
 
