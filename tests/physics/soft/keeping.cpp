@@ -1,6 +1,7 @@
 #include "physics/saved_bytes.h"
 #include "physics/soft/soft_scene.h"
 
+#include <algorithm>
 #include <limits>
 
 using namespace tweenfall;
@@ -88,6 +89,59 @@ TEST_CASE("saved soft bodies that cannot be are refused, whatever byte is wrong"
     } catch (const std::exception&) {
     }
   }
+}
+
+TEST_CASE("soft bodies that share a rigid one go the same ways to the bit, whatever soft bodies do far away") {
+  struct Shared {
+    std::vector<SoftId> softs;
+    BodyId box;
+  };
+  // A cloth that falls on a box, which hangs on a rope, and a rope that falls on the cloth.
+  const auto add = [](World& world, double x, double thickness, double stretching) {
+    Shared shared;
+    shared.box = world.add({.shape = {Box{{0.2, 0.1, 0.2}}}, .mass = 0.5, .motion = {.pose = {.position = {x, 0, 0}}}});
+    SoftSettings line = rope({.from = {x, 1, 0}, .to = {x, 0.1, 0}, .links = 8, .stiffness = 500});
+    line.pins = {{.node = 0, .in_place = true}, {.node = 8, .body = shared.box, .in_place = true}};
+    SoftSettings sheet = cloth({.corner = {x - 0.3, 0.15, -0.3},
+                                .along = {0.6, 0, 0},
+                                .across = {0, 0, 0.6},
+                                .columns = 6,
+                                .rows = 6,
+                                .material = {.stretching = stretching}});
+    sheet.solver = SoftSolver::springs;
+    SoftSettings second = rope({.from = {x - 0.2, 0.25, 0.1}, .to = {x + 0.2, 0.25, 0.1}, .links = 8});
+    sheet.thickness = second.thickness = thickness;
+    for (const SoftSettings& one : {line, sheet, second}) shared.softs.push_back(add_soft(world, one));
+    return shared;
+  };
+  for (const bool far_first : {false, true}) {
+    CAPTURE(far_first);
+    World alone, beside;
+    const Shared one = add(alone, 0, 0.03, 300);
+    if (far_first) add(beside, 500, 0.05, 2000);
+    const Shared other = add(beside, 0, 0.03, 300);
+    if (!far_first) add(beside, 500, 0.05, 2000);
+    for (int n = 0; n < 30; ++n) {
+      CAPTURE(n);
+      alone.step(1.0 / 60);
+      beside.step(1.0 / 60);
+      REQUIRE(beside.motion(other.box).pose.position == alone.motion(one.box).pose.position);
+      for (std::size_t k = 0; k < one.softs.size(); ++k)
+        REQUIRE(std::ranges::equal(soft_positions(beside, other.softs[k]), soft_positions(alone, one.softs[k])));
+    }
+  }
+}
+
+TEST_CASE("soft bodies with a thickness that do not meet fall freely, however many there are") {
+  World world;
+  std::vector<SoftId> ropes;
+  for (const double x : {0.0, 5.0}) {
+    SoftSettings line = rope({.from = {x, 0, 0}, .to = {x + 1, 0, 0}, .links = 5});
+    line.thickness = 0.1;
+    ropes.push_back(add_soft(world, line));
+  }
+  for (int n = 0; n < 60; ++n) world.step(1.0 / 60);
+  for (const SoftId id : ropes) CHECK(near(center_of(world, id).y(), -0.5 * 9.81, 1e-9));
 }
 
 TEST_CASE("what makes no soft body is refused in words") {

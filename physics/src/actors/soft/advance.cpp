@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "actors/soft/blowing.h"
@@ -10,6 +11,7 @@
 #include "actors/soft/meetings/meetings.h"
 #include "actors/soft/sub_step.h"
 #include "flat/axes.h"
+#include "islands/islands.h"
 #include "state/countable.h"
 #include "state/world_data.h"
 
@@ -111,16 +113,23 @@ class Course {
     }
     return {changed, all};
   }
-  [[nodiscard]] bool shares() const {
+  /// The first of the partners to which another one gives, too.
+  [[nodiscard]] std::optional<std::uint32_t> first_shared() const {
     for (std::uint32_t p = 0; p < gifts_.size(); ++p)
-      if (partners_[p].givers > 1 && gives_to(p)) return true;
-    return false;
+      if (partners_[p].givers > 1 && gives_to(p)) return p;
+    return std::nullopt;
+  }
+  /// Joins all of these.
+  void join_shared(islands::Islands& joined) const {
+    const std::optional<std::uint32_t> first = first_shared();
+    for (std::uint32_t p = first.value_or(0); first && p < gifts_.size(); ++p)
+      if (partners_[p].givers > 1 && gives_to(p)) joined.join(*first, p);
   }
 
   [[nodiscard]] bool thick() const { return body_.made->thickness > 0; }
   [[nodiscard]] Thick as_thick() { return {&body_, &places_, held_}; }
 
-  /// @param among  other soft bodies may have pushed it
+  /// @param among  other soft bodies have pushed it
   void end(double time, double h, bool among) {
     for (std::size_t i = 0; i < held_.size(); ++i) {
       body_.pins[i].force += held_[i].pushed / (h * dt_);
@@ -218,21 +227,33 @@ class Course {
   bool pushed_ = false;                                ///< a contact between its nodes pushed it in the sub-step
 };
 
+/// Those that give something to the same bodies, directly or through others, each in their order.
+std::vector<std::vector<Course*>> sharing(std::vector<Course>& courses, const Partners& partners) {
+  islands::Islands joined;
+  joined.reset(partners.size());
+  for (const Course& course : courses) course.join_shared(joined);
+  std::vector<std::vector<Course*>> by_first(partners.size());
+  for (Course& course : courses)
+    if (const std::optional<std::uint32_t> first = course.first_shared())
+      by_first[joined.of(*first)].push_back(&course);
+  return by_first;
+}
+
 /// A sub-step of all soft bodies. Those that hold the same body are solved in turn until they agree on where it goes:
 /// what the first gives it does not account for the load of the last.
-void go_together(std::vector<Course>& courses, double time, double h, bool backward) {
+void go_together(std::vector<Course>& courses, const Partners& partners, double time, double h, bool backward) {
   if (courses.size() == 1) return courses.front().go(time, h, backward);
   for (Course& course : courses) course.go_first(time, h, backward);
-  for (int round = 1; round < most_rounds; ++round) {
-    double changed = 0, all = 0;
-    for (Course& course : courses) {
-      if (!course.shares()) continue;
-      const auto [change, whole] = course.go_again(time, h, backward);
-      changed += change;
-      all += whole;
+  for (const std::vector<Course*>& some : sharing(courses, partners))
+    for (int round = 1; round < most_rounds; ++round) {
+      double changed = 0, all = 0;
+      for (Course* const course : some) {
+        const auto [change, whole] = course->go_again(time, h, backward);
+        changed += change;
+        all += whole;
+      }
+      if (!(changed > agreed * all)) break;
     }
-    if (!(changed > agreed * all)) return;
-  }
 }
 
 /// Indices of the soft bodies that may meet another one.
@@ -283,11 +304,16 @@ void World::Implementation::advance_softs(double dt, double whole) {
     const double since = i < count ? i * h : dt;
     partners.go_to(since, h);
     const bool backward = static_cast<int>(i) % 2 == 0;
-    soft::go_together(courses, since, h, backward);
+    soft::go_together(courses, partners, since, h, backward);
     thick.clear();
     for (const std::size_t member : among) thick.push_back(courses[member].as_thick());
-    if (!thick.empty()) soft::keep_apart_from_each_other(thick, partners, h, backward, settings.push_out_speed);
-    for (std::size_t k = 0; k < courses.size(); ++k) courses[k].end(since, h, std::ranges::binary_search(among, k));
+    std::vector<char> pushed(courses.size(), 0);
+    if (!thick.empty()) {
+      const std::vector<char> its =
+          soft::keep_apart_from_each_other(thick, partners, h, backward, settings.push_out_speed);
+      for (std::size_t m = 0; m < among.size(); ++m) pushed[among[m]] = its[m];
+    }
+    for (std::size_t k = 0; k < courses.size(); ++k) courses[k].end(since, h, pushed[k] != 0);
     partners.accept(h);
   }
   partners.finish();

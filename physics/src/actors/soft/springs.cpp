@@ -104,7 +104,14 @@ class Springs {
     for (std::size_t i = 0; i < nodes_; ++i) free_[i] = kept * (step_.body.velocities[i] + h * step_.gravity);
     v_ = free_;
     for (std::size_t i = 0; i < nodes_; ++i) v_[i] = step_.body.velocities[i];
+    // Bodies that only other soft bodies meet keep zeros.
+    std::vector<char> meets(step_.partners.size(), 0);
+    for (const NodeContact& contact : step_.contacts) meets[contact.partner] = 1;
+    for (const Held& held : step_.held)
+      if (held.partner != Held::nobody) meets[held.partner] = 1;
+    unknowns_ = nodes_ + 2 * static_cast<std::size_t>(std::ranges::count(meets, 1));
     for (std::uint32_t p = 0; p < step_.partners.size(); ++p) {
+      if (meets[p] == 0) continue;
       const Partner& partner = step_.partners[p];
       v_[linear_of(p)] = free_[linear_of(p)] = partner.moved / h;
       v_[linear_of(p) + 1] = free_[linear_of(p) + 1] = partner.turned / h;
@@ -320,7 +327,7 @@ class Springs {
     toward_ = steered_;
     double left = dot(rest_, steered_);
     const double enough = 1e-16 * left;
-    const auto all = static_cast<double>(size);
+    const auto all = static_cast<double>(unknowns_);
     const double of_many = most_passes * many_nodes * many_nodes / (all * all);
     const double most = std::min({3 * all + 20, most_passes, std::max(fewest_passes, of_many)});
     for (int i = 0; i < most && left > enough; ++i) {
@@ -429,8 +436,8 @@ class Springs {
 
   SubStep& step_;
   const SoftSettings& made_;
-  std::vector<Vec3>& x_;  ///< at the start
-  std::size_t nodes_;
+  std::vector<Vec3>& x_;              ///< at the start
+  std::size_t nodes_, unknowns_ = 0;  ///< unknown are velocities of nodes, and of the bodies that they meet
   std::vector<double> mass_;
   Energies energies_;
   Rates v_, free_, gradient_, change_, rest_, steered_, toward_, product_, trial_, spread_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace tweenfall::soft {
 
@@ -114,14 +115,24 @@ class KeptApart {
         pairs_.push_back({a, b, apart, within ? one.friction : std::sqrt(one.friction * other.friction)});
       return ++heeded[a] < most_heeded;
     });
+    if (within) return;
+    // The cells are as wide as the thickest of all: the order must not come from them.
+    for (NodePair& pair : pairs_)
+      if (pair.b < pair.a) std::swap(pair.a, pair.b);
+    std::ranges::sort(pairs_, {}, [](const NodePair& pair) { return std::pair(pair.a, pair.b); });
   }
 
-  void push() {
+  /// @return by soft body, whether it was pushed
+  std::vector<char> push() {
     for (int pass = 0; pass < passes; ++pass)
       for (std::size_t i = 0; i < pairs_.size(); ++i)
         meet(pairs_[backward_ == (pass % 2 == 0) ? pairs_.size() - 1 - i : i]);
     for (std::uint32_t node = 0; node < places_.size(); ++node)
       thick_[member_[node]].body->positions[node - first_[member_[node]]] = places_[node];
+    std::vector<char> pushed(thick_.size(), 0);
+    for (const NodePair& pair : pairs_)
+      if (pair.pressed > 0) pushed[member_[pair.a]] = pushed[member_[pair.b]] = 1;
+    return pushed;
   }
 
  private:
@@ -190,14 +201,14 @@ bool meet_each_other(const SoftSettings& one, const SoftSettings& other) {
 void keep_apart(const Thick& thick, Partners& partners, double h, bool backward, double push_out_speed) {
   KeptApart kept({&thick, 1}, partners, h, backward);
   kept.find(push_out_speed, true);
-  kept.push();
+  static_cast<void>(kept.push());
 }
 
-void keep_apart_from_each_other(std::span<const Thick> thick, Partners& partners, double h, bool backward,
-                                double push_out_speed) {
+std::vector<char> keep_apart_from_each_other(std::span<const Thick> thick, Partners& partners, double h, bool backward,
+                                             double push_out_speed) {
   KeptApart kept(thick, partners, h, backward);
   kept.find(push_out_speed, false);
-  kept.push();
+  return kept.push();
 }
 
 }  // namespace tweenfall::soft
