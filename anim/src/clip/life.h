@@ -56,9 +56,13 @@ struct Stretch {
   double turn = 0;          ///< where the speed alone would end it, s: the next turn, or infinity
   double phase_from = 0, phase_to = 0;
   int direction = 1;
-  bool first = false;  ///< the clock begins to move here
-  bool told = false;   ///< a change has told which intervals begin here
+  bool first = false;   ///< the clock begins to move here
+  bool sought = false;  ///< it was put there by a seek: what is there is not reached
+  bool told = false;    ///< a change has told which intervals begin here
 };
+
+/// What a clock has done so far: by a seek it is put to another time, and has not reached what is there.
+enum class Past { rested, sought, moved };
 
 /// The clock of a play: its phase as a function of time, and the times as functions of the phase.
 class Course {
@@ -91,6 +95,7 @@ class Course {
   /// The time from which it is in force: `since`, or its start.
   [[nodiscard]] double begin() const noexcept { return std::max(at, since); }
 
+  [[nodiscard]] Past past() const noexcept { return moved ? Past::moved : sought ? Past::sought : Past::rested; }
   /// Makes `time`, with the phase there, the origin of its clock.
   void set_origin(double time, double at_phase) noexcept;
   void find_end() noexcept;
@@ -114,6 +119,7 @@ class Course {
         stretch.phase_from = held_phase(start);
         stretch.phase_to = finish == infinity ? direction * infinity : held_phase(finish);
         stretch.first = !moved && start == first_move;
+        stretch.sought = sought;
         stretch.told = start == begins && (moved || start == since);
         if (!visit(stretch)) return;
       }
@@ -131,6 +137,7 @@ class Course {
   double speed_from = 0, way_at_origin = 0;  ///< for a speed that is a curve: where that begins
   double end = infinity, end_phase = 0;      ///< when its rounds are over, and where
   bool moved = false;                        ///< whether it had moved before `since`
+  bool sought = false;                       ///< whether a seek has put it where it stands, if it has not moved before
   double first_move = infinity;              ///< when its clock first moves, if it has not moved before
 };
 
@@ -144,11 +151,11 @@ struct OpenInterval {
 [[nodiscard]] std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip, double phase,
                                                        int direction);
 
-/// What a clock meets when it jumps from one phase to another, as if it ran there; if it moves for the `first` time,
-/// also what is at its own phase.
+/// What a clock meets when it jumps from one phase to another, as if it ran there; if it has only rested, also what is
+/// at its own phase.
 /// @param open  the intervals that are open before the jump, and then those open just before it arrives
 [[nodiscard]] std::vector<FiredEvent> passed_events(const Rounds& rounds, const Clip& clip, std::size_t index,
-                                                    double from, double to, bool first, double time,
+                                                    double from, double to, Past past, double time,
                                                     std::vector<OpenInterval>& open);
 
 }  // namespace clips

@@ -26,6 +26,28 @@ Inside phases_of(const Rounds& rounds, double round, const Inside& interval) {
   return {std::min(a, b), std::max(a, b)};
 }
 
+/// Whether a phase is a turn of a ping-pong, where the clock stays at a time of the clip and an interval goes on.
+bool is_turn(const Rounds& rounds, double phase) {
+  if (!rounds.loops() || rounds.mode != LoopMode::pingpong || !(rounds.low < phase && phase < rounds.total))
+    return false;
+  return phase == std::round(phase / rounds.length) * rounds.length;
+}
+/// An interval with the phases between which the clock stays in it, across the turns of a ping-pong that it touches.
+struct Passage {
+  double round;  ///< that in which it begins; 0 if it never leaves the interval
+  Inside phases;
+};
+/// Empty where the interval goes on from the round before.
+std::optional<Passage> passage_of(const Rounds& rounds, double round, const Inside& interval) {
+  const bool everywhere = interval.from == 0 && interval.to == rounds.length;
+  if (rounds.loops() && rounds.mode == LoopMode::pingpong && everywhere)
+    return Passage{0, {rounds.low, std::ceil(rounds.total / rounds.length) * rounds.length}};
+  Inside phases = phases_of(rounds, round, interval);
+  if (is_turn(rounds, phases.from)) return {};
+  if (is_turn(rounds, phases.to)) phases.to = phases_of(rounds, round + 1, interval).to;
+  return Passage{round, phases};
+}
+
 /// The place of a moment inside the section.
 std::optional<double> place_of(const Rounds& rounds, const ClipEvent& event) {
   const double inside = event.from - rounds.from;
@@ -85,8 +107,8 @@ class StretchWalk {
       if (!inside) continue;
       const auto [low, high] = phases_of(rounds_, round, *inside);
       const double entry = up ? low : high, exit = up ? high : low;
-      if (enters(entry)) fire(entry, event, FiredEvent::Kind::begin);
-      if (reaches(exit)) fire(exit, event, FiredEvent::Kind::end);
+      if (!is_turn(rounds_, entry) && enters(entry)) fire(entry, event, FiredEvent::Kind::begin);
+      if (!is_turn(rounds_, exit) && reaches(exit)) fire(exit, event, FiredEvent::Kind::end);
     }
   }
 
@@ -102,7 +124,7 @@ class StretchWalk {
     return (stretch_.told ? from < at : from <= at) && (goes_on_ ? at <= to : at < to);
   }
   [[nodiscard]] bool meets(double round, double phase) const {
-    const bool begins_here = stretch_.first && phase == stretch_.phase_from;
+    const bool begins_here = stretch_.first && !stretch_.sought && phase == stretch_.phase_from;
     if (rounds_.loops() && begins_here) return round == round_ahead(rounds_, phase, stretch_.direction);
     return !is_turn_again(rounds_, round, phase) && (begins_here || reaches(phase));
   }
@@ -135,16 +157,19 @@ std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip,
       if (!clip.events[i].is_interval()) continue;
       const std::optional<Inside> inside = clipped(rounds, clip.events[i]);
       if (!inside) continue;
-      const auto [low, high] = phases_of(rounds, round, *inside);
+      const std::optional<Passage> passage = passage_of(rounds, round, *inside);
+      if (!passage) continue;
+      const auto [low, high] = passage->phases;
+      const OpenInterval interval{i, passage->round};
       if ((low < phase && phase < high) || (direction > 0 && phase == low) || (direction < 0 && phase == high))
-        open.push_back({i, round});
+        if (std::ranges::find(open, interval) == open.end()) open.push_back(interval);
     }
   }
   return open;
 }
 
 std::vector<FiredEvent> passed_events(const Rounds& rounds, const Clip& clip, std::size_t index, double from, double to,
-                                      bool first, double time, std::vector<OpenInterval>& open) {
+                                      Past past, double time, std::vector<OpenInterval>& open) {
   std::vector<std::pair<double, FiredEvent>> passed;
   const double direction = to < from ? -1 : 1, begin = direction * from, end = direction * to;
   const auto pass = [&](double way, const ClipEvent& event, FiredEvent::Kind kind) {
@@ -156,7 +181,7 @@ std::vector<FiredEvent> passed_events(const Rounds& rounds, const Clip& clip, st
     const double exit = direction * (direction > 0 ? phases.to : phases.from);
     const auto known = std::ranges::find(open, interval);
     bool is_open = known != open.end();
-    if (!is_open && entry < end && (first ? exit > begin : entry >= begin)) {
+    if (!is_open && entry < end && (past == Past::moved ? entry >= begin : exit > begin)) {
       pass(std::max(entry, begin), event, FiredEvent::Kind::begin);
       open.push_back(interval);
       is_open = true;
@@ -172,13 +197,15 @@ std::vector<FiredEvent> passed_events(const Rounds& rounds, const Clip& clip, st
       const ClipEvent& event = clip.events[i];
       if (event.is_interval()) {
         if (const std::optional<Inside> inside = clipped(rounds, event))
-          pass_interval({i, round}, phases_of(rounds, round, *inside));
+          if (const std::optional<Passage> passage = passage_of(rounds, round, *inside))
+            pass_interval({i, passage->round}, passage->phases);
         continue;
       }
       const std::optional<double> place = place_of(rounds, event);
       if (!place) continue;
       const double phase = rounds.phase_of(round, *place), way = direction * phase;
-      const bool stands = first && phase == from && (!rounds.loops() || round == round_ahead(rounds, from, direction));
+      const bool stands =
+          past == Past::rested && phase == from && (!rounds.loops() || round == round_ahead(rounds, from, direction));
       const bool passes = way > begin && way <= end && !is_turn_again(rounds, round, phase);
       if (stands || passes) pass(way, event, FiredEvent::Kind::moment);
     }

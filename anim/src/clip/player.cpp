@@ -305,10 +305,12 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
                                                     rounds.low, rounds.total);
                    next->set_origin(std::max(time, old.at), wanted);
                    next->find_end();
-                   if (seek.events && wanted != phase && time < old.stopped) {
-                     next->told = clips::passed_events(rounds, clip, index, phase, wanted, !next->moved, met, open);
+                   if (wanted == phase) return;
+                   if (seek.events && time < old.stopped) {
+                     next->told = clips::passed_events(rounds, clip, index, phase, wanted, next->past(), met, open);
                      next->moved = true;
                    }
+                   next->sought = true;
                  }},
              action);
 

@@ -253,3 +253,69 @@ TEST_CASE("a play that is stopped fires nothing, neither by a seek nor where it 
   CHECK(resting.changed(clip, 3, playing::Seek{.time = 2, .events = true}).events_between(clip, 0, 9, true).empty());
   CHECK(Player({.at = 1}, clip).changed(clip, 0.5, playing::Stop{}).events_between(clip, 0, 9, true).empty());
 }
+
+TEST_CASE("what a resting play is sought onto does not fire as it moves off, unless the seek is asked for events") {
+  Clip clip{.name = "walk", .duration = 2};
+  clip.events = {{.from = 0, .to = 0, .name = "start", .data = {}},
+                 {.from = 1, .to = 1, .name = "step", .data = {}},
+                 {.from = 1, .to = 1.5, .name = "loud", .data = {}}};
+  const auto told = [&](const Play& play, bool events, double again) {
+    const Player sought = Player(play, clip).changed(clip, 0.5, playing::Seek{.time = 1, .events = events});
+    const Player once_more = again < 0 ? sought : sought.changed(clip, 0.5, playing::Seek{again, true});
+    return all_told(once_more.changed(clip, 1, playing::SetSpeed{}).events_between(clip, 0, 9, true));
+  };
+  CHECK(told({.speed = 0}, false, -1) == "1:loud(\n1.5:loud)\n");
+  CHECK(told({.at = 1}, false, -1) == "1:loud(\n1.5:loud)\n");
+  CHECK(told({.speed = 0}, true, -1) == "0.5:start\n0.5:step\n1:loud(\n1.5:loud)\n");
+  CHECK(told({.speed = 0}, false, 1.75) == "0.5:loud(\n0.5:loud)\n");
+  // A seek to where it stands already changes nothing: as it begins, its left end is closed.
+  const Player waits = Player({.at = 1}, clip).changed(clip, 0.5, playing::Seek{.time = 0});
+  CHECK(all_told(waits.events_between(clip, 0, 1.5)) == "1:start\n");
+}
+
+TEST_CASE("an interval that touches the turn of a ping-pong stays entered there, by running, resting and leaping") {
+  Clip clip{.name = "swing", .duration = 1};
+  clip.events = {{.from = 0, .to = 0.25, .name = "low", .data = {}},
+                 {.from = 0.5, .to = 1, .name = "high", .data = {}},
+                 {.from = 0, .to = 1, .name = "on", .data = {}}};
+  const Play play{.loop = Loop{LoopMode::pingpong, 3}};
+  CHECK(all_told(events_between(play, clip, 0, 9, true)) ==
+        "0:low(\n0:on(\n0.25:low)\n0.5:high(\n1.5:high)\n1.75:low(\n2.25:low)\n2.5:high(\n3:high)\n3:on)\n");
+  const Play back{.speed = -1, .loop = Loop{LoopMode::pingpong, 2.75}};
+  CHECK(all_told(events_between(back, clip, 0, 9, true)) ==
+        "0:on(\n0:high(\n0.25:high)\n0.5:low(\n1:low)\n1.25:high(\n2.25:high)\n2.5:low(\n2.75:low)\n2.75:on)\n");
+  // In two steps that meet at the turn, and where a change stops it there, turns it, or moves it over the turn.
+  CHECK(all_told(events_between(play, clip, 0.5, 1)).empty());
+  CHECK(all_told(events_between(play, clip, 1, 1.5)) == "1.5:high)\n");
+  const auto changed = [&](double time, const PlayAction& action, double to) {
+    return all_told(Player(play, clip).changed(clip, time, action).events_between(clip, 0.75, to));
+  };
+  CHECK(changed(1, playing::SetSpeed{{{0, 0}}}, 9).empty());
+  CHECK(changed(1, playing::SetSpeed{{{0, -1}}}, 1.75) == "1.5:high)\n1.75:low(\n");
+  CHECK(changed(1, playing::Seek{0.625}, 1.25) == "1.125:high)\n");
+  CHECK(changed(1.5, playing::Seek{.time = 0.75, .events = true}, 1.5) == "1.5:high)\n1.5:high(\n");
+  CHECK(changed(2, playing::Seek{.time = 0.75, .events = true}, 2) == "1.5:high)\n1.75:low(\n2:low)\n2:high(\n");
+
+  Random random(53);
+  int looked_at = 0;
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    Play swings{.speed = random.between(0.3, 3), .offset = random.between(0, 3), .reverse = random.bits() % 2 == 0};
+    if (random.bits() % 2) swings.speed = -swings.speed.at(0);
+    swings.loop = Loop{LoopMode::pingpong, random.between(4, 12)};
+    const Player player(swings, clip);
+    const double t = random.between(0, player.end());
+    std::map<std::string, bool> open;
+    for (const FiredEvent& event : player.events_between(clip, 0, t, true)) {
+      CHECK(open[event.name] != (event.kind == FiredEvent::Kind::begin));
+      open[event.name] = event.kind == FiredEvent::Kind::begin;
+    }
+    const double place = player.clock(t).time;
+    for (const ClipEvent& event : clip.events) {
+      if (std::min(std::abs(place - event.from), std::abs(place - event.to)) < 1e-9) continue;
+      CHECK(open[event.name] == (event.from < place && place < event.to));
+      ++looked_at;
+    }
+  }
+  CHECK(looked_at > 800);
+}
