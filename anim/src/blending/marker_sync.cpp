@@ -220,12 +220,18 @@ double MarkerSync::in_period(std::size_t clip) const noexcept {
   return clips_[clip].duration * (period_ / static_cast<double>(clips_[clip].stretches.size()));
 }
 
+double MarkerSync::seconds(std::span<const double> weights) const noexcept {
+  const double sum = blending::sum_of(weights);
+  double whole = 0;
+  for (std::size_t i = 0; i < clips_.size(); ++i) whole += share(weights, sum, i) * in_period(i);
+  return whole;
+}
+
 double MarkerSync::advanced(double phase, double seconds, std::span<const double> weights) const noexcept {
   if (seconds == 0) return phase;
   const double sum_of_weights = blending::sum_of(weights);
-  // The averaged advance of the clips in one period: whole periods are taken out, and put back at the end.
-  double whole = 0;
-  for (std::size_t i = 0; i < clips_.size(); ++i) whole += share(weights, sum_of_weights, i) * in_period(i);
+  // Whole periods are taken out, and put back at the end.
+  const double whole = this->seconds(weights);
   const double periods = std::floor(seconds / whole), rest = seconds - periods * whole;
   if (!std::isfinite(periods)) return phase;  // loops too short to be counted
   const double start = phase - std::floor(phase / period_) * period_;

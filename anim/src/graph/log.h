@@ -95,6 +95,10 @@ struct SwingMemory {
 struct TravelPlace {
   Pose pose;
   Twist haste;  // how much faster it moves than the clips, in its own axes
+  // While weights are constant, the way repeats itself: since when, s (below 0: not now), after how long, and from
+  // where.
+  double since = -1, lap = 0;
+  Pose base;
 };
 using TravelTrails = Trails<TravelPlace, 64>;
 

@@ -61,6 +61,12 @@ class PlayedClip : public Operation {
   [[nodiscard]] ClipClock clock_of(const Log&, std::size_t, const Moment& moment) const noexcept override {
     return clock(moment);
   }
+  [[nodiscard]] double round_of(const Log&, std::size_t, const Moment& moment) const noexcept override {
+    if (speed_ == 0) return 0;
+    const clips::Rounds all = rounds();
+    if (moment.time < moment.start + at_ || !all.loops() || std::isfinite(all.total)) return clips::infinity;
+    return (all.mode == LoopMode::pingpong ? 2 : 1) * all.length / std::abs(speed_);
+  }
 
  private:
   [[nodiscard]] double next_leap(double began, double after, double until) const {

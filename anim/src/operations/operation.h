@@ -122,6 +122,11 @@ class Operation {
   [[nodiscard]] virtual ClipClock clock_of(const Log&, std::size_t /*clip*/, const Moment&) const noexcept {
     return {};
   }
+  /// The time in which the clock of a clip goes around once if nothing happens from then on, s; 0 where it stands
+  /// still, infinity where it does not go around.
+  [[nodiscard]] virtual double round_of(const Log&, std::size_t /*clip*/, const Moment&) const noexcept {
+    return std::numeric_limits<double>::infinity();
+  }
 
   /// Number of scratch poses that it needs, including its operands.
   [[nodiscard]] std::size_t rooms() const noexcept { return rooms_; }

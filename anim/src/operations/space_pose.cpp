@@ -103,6 +103,13 @@ class SyncedSpace : public Operation {
   [[nodiscard]] ClipClock clock_of(const Log& log, std::size_t clip, const Moment& moment) const noexcept override {
     return clock_in(clip, phase_.at(log, moment), moment.side);
   }
+  [[nodiscard]] double round_of(const Log& log, std::size_t, const Moment& moment) const noexcept override {
+    std::array<Sample<double>, most_blended> weights;
+    std::array<double, most_blended> held;
+    phase_.weights().sample(log, moment.time, moment.side, {weights.data(), clips_.size()});
+    for (std::size_t i = 0; i < clips_.size(); ++i) held[i] = weights[i].value;
+    return phase_.sync().seconds({held.data(), clips_.size()});
+  }
 
   void events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const override {
     for (std::size_t i = 0; i < clips_.size(); ++i) {

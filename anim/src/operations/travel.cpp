@@ -22,6 +22,20 @@ double next_stop(double instant, double after) noexcept {
   return stop > after ? stop : instant + (passed + 2) * size;
 }
 
+/// The least multiple of the longest of these rounds that is one of all; infinity where there is none up to 128.
+double common_multiple(std::span<const double> rounds) noexcept {
+  const double longest = *std::ranges::max_element(rounds);
+  for (int times = 1; times <= 128; ++times) {
+    const double whole = times * longest;
+    const auto fits = [&](double round) {
+      const double count = whole / round;
+      return round == 0 || std::abs(count - std::round(count)) <= 1e-14 * count;
+    };
+    if (std::ranges::all_of(rounds, fits)) return longest > 0 ? whole : 1;
+  }
+  return never;
+}
+
 Motion standing() noexcept {
   return {};
 }
@@ -235,6 +249,18 @@ Twist Travel::haste_at(const Log& log, double start, double time, const Motion& 
   return {haste.way, haste.turn};
 }
 
+std::optional<double> Travel::lap_of(const Log& log, const Bearers& bearers, double time) noexcept {
+  if (bearers.flow || bearers.count == 0) return {};
+  std::array<double, Bearers::most> rounds;
+  for (std::size_t i = 0; i < bearers.count; ++i) {
+    const Bearer& each = bearers.list[i];
+    if (each.weight.rate != 0) return {};
+    rounds[i] = each.operation->round_of(log, each.clip, {time, Side::out, each.start});
+    if (!std::isfinite(rounds[i])) return {};
+  }
+  return common_multiple({rounds.data(), bearers.count});
+}
+
 Pose Travel::place_at_start(const Log& log, double start, std::span<Motion> room) const noexcept {
   const Bearers bearers = bearers_at(log, {start, Side::out, start});
   MovingStride mean;
@@ -250,6 +276,20 @@ Pose Travel::place_at_start(const Log& log, double start, std::span<Motion> room
   return motion_of(mean).pose;
 }
 
+Motion Travel::lapped(const Log& log, const Moment& moment, const TravelPlace& reached,
+                      std::span<Motion> room) const noexcept {
+  const double since = reached.since, lap = reached.lap;
+  double laps = std::floor((moment.time - since) / lap), time = std::max(moment.time - laps * lap, since);
+  if (time == since && moment.side == Side::in) {
+    laps -= 1;
+    time = since + lap;
+  }
+  const Pose back = undone(reached.base), whole = compose(back, reached.pose);
+  Motion ahead;
+  ahead.pose = compose(compose(reached.base, repeated(whole, laps)), back);
+  return compose(ahead, at(log, {std::min(time, since + lap), moment.side, moment.start}, room));
+}
+
 Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) const noexcept {
   // Hidden inputs have not happened, and marks beyond them do not count.
   const double unseen = log.until < never ? next_instant(log, log.until) : never;
@@ -262,12 +302,29 @@ Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) 
   TravelPlace reached = mark ? mark->place : TravelPlace{place_at_start(log, moment.start, room), {}};
   for (;;) {
     const Bearers bearers = bearers_at(log, {here, Side::out, moment.start});
-    double next = next_instant(log, here);
-    if (next >= unseen) next = never;
+    double instant = next_instant(log, here);
+    if (instant >= unseen) instant = never;
+    const bool happens = instant < moment.time || (instant == moment.time && moment.side == Side::out);
+    double next = instant;
     Step own{moment.start, here, never, true, reached.haste};
     own.alone = !bearers.flow && (bearers.count == 0 || (bearers.count == 1 && is_whole(bearers.list[0].weight)));
     if (!own.alone) {
-      own.end = next_stop(last_instant(log, moment.start, here, Side::out), here);
+      // What a step was cut short by decays first, and is in no lap.
+      if (reached.since < 0 && reached.haste.linear.isZero(0) && reached.haste.angular.isZero(0)) {
+        const std::optional<double> lap = lap_of(log, bearers, here);
+        if (lap) reached = {.pose = reached.pose, .since = here, .lap = *lap, .base = reached.pose};
+      }
+      const double lap_end = reached.since < 0 ? never : reached.since + reached.lap;
+      if (here >= lap_end) {
+        if (here > began && here <= sure) trail.stay(here, reached);
+        if (!happens) return lapped(log, moment, reached, room);
+        const Motion gone = lapped(log, {instant, Side::in, moment.start}, reached, room);
+        reached = {.pose = gone.pose, .haste = haste_at(log, moment.start, instant, gone, room)};
+        here = instant;
+        if (here <= sure) trail.pass(here, reached);
+        continue;
+      }
+      own.end = std::min(lap_end, next_stop(last_instant(log, moment.start, here, Side::out), here));
       next = std::min(next, own.end);
     }
     if (next > moment.time || (next == moment.time && moment.side == Side::in)) {
@@ -277,8 +334,10 @@ Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) 
       return compose(from, step(log, bearers, own, moment.time, moment.side, room));
     }
     const Motion gone = step(log, bearers, own, next, Side::in, room);
-    reached = {compose(reached.pose, gone.pose), {}};
+    reached.pose = compose(reached.pose, gone.pose);
+    reached.haste = {};
     if (!own.alone && next < own.end) reached.haste = haste_at(log, moment.start, next, gone, room);
+    if (next == instant) reached.since = -1;
     here = next;
     if (here <= sure) trail.pass(here, reached);
   }

@@ -13,7 +13,8 @@ namespace tweenfall::graphs {
 /// rates at its ends, so that the velocity jumps only where that of the clips does, and the rate is exactly the
 /// derivative of the value. Something that happens within a step cuts it short; if the figure moved faster there than
 /// the clips say, for example because a weight kinks, the excess decays in the next step. While a single clip moves the
-/// figure, its loops are repeated in closed form, so that nothing drifts.
+/// figure, its loops are repeated in closed form, so that nothing drifts; and so is the lap after which several clips
+/// of constant weights are all at their start again.
 class Travel {
  public:
   /// @param base the pose whose clips move the figure; null for none
@@ -52,6 +53,12 @@ class Travel {
   /// How much faster than the clips the figure moved at the end of a step that was cut short.
   [[nodiscard]] Twist haste_at(const Log& log, double start, double time, const Motion& step,
                                std::span<Motion> room) const noexcept;
+  /// Beyond the first lap.
+  [[nodiscard]] Motion lapped(const Log& log, const Moment& moment, const TravelPlace& reached,
+                              std::span<Motion> room) const noexcept;
+  /// After how many seconds these clips are all at their start again, or infinity; empty where their weights may
+  /// change, or one of them does not go around for ever.
+  [[nodiscard]] static std::optional<double> lap_of(const Log& log, const Bearers& bearers, double time) noexcept;
   [[nodiscard]] Pose place_at_start(const Log& log, double start, std::span<Motion> room) const noexcept;
   /// @param first the bearers at its beginning
   [[nodiscard]] Motion step(const Log& log, const Bearers& first, const Step& step, double to, Side side,

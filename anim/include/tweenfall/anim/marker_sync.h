@@ -64,9 +64,12 @@ class MarkerSync {
   /// because the advance of the clips, averaged by the weights, is the number of seconds.
   [[nodiscard]] double advanced(double phase, double seconds, std::span<const double> weights) const noexcept;
 
-  /// The same while the shares of the weights change linearly from those of `from` to those of `to`: within 1e-11 of a
-  /// phase, in one step as in many, for clips whose speeds are up to a thousand times apart. Takes time for each marker
-  /// passed, up to those of one period.
+  /// How long one period takes under constant weights, s.
+  [[nodiscard]] double seconds(std::span<const double> weights) const noexcept;
+
+  /// The phase some seconds later while the shares of the weights change linearly from those of `from` to those of
+  /// `to`: within 1e-11 of a phase, in one step as in many, for clips whose speeds are up to a thousand times apart.
+  /// Takes time for each marker passed, up to those of one period.
   [[nodiscard]] double advanced(double phase, double seconds, std::span<const double> from,
                                 std::span<const double> to) const noexcept;
 
