@@ -32,6 +32,7 @@ TEST_CASE("every verb's help is on stdout, ends with 0 and holds an example of t
     CHECK(holds(ran.out, "tweenfall " + verb));
     CHECK(holds(ran.out, "Example:"));
   }
+  CHECK(holds(folder.run("run --help").out, "timed inputs to plays, graphs, vehicles and bodies"));
 }
 
 TEST_CASE("the overall help lists every verb and none of a later release") {

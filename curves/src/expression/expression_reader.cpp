@@ -145,7 +145,8 @@ class Reader {
   }
 
   void close(std::size_t open) {
-    if (!taken(')')) fault(at_, unexpected("\")\" for the \"(\" at column " + std::to_string(open + 1)));
+    if (!taken(')'))
+      fault(at_, unexpected("\")\" for the \"(\" at character " + std::to_string(open + 1) + " of the formula"));
   }
 
   void number() {

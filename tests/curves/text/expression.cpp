@@ -216,7 +216,7 @@ TEST_CASE("a faulty expression is refused with its column and what would be righ
   CHECK(fault_of("1+quux") == "column 3: unknown name \"quux\"; known: t, pi, tau, e");
   CHECK(fault_of("2t") == "column 2: expected an operator, found \"t\"; a product is written with *");
   CHECK(fault_of("t**2") == "column 3: expected a value, found \"**\"; a power is written with ^");
-  CHECK(fault_of("(1+t") == "column 5: expected \")\" for the \"(\" at column 1, found the end");
+  CHECK(fault_of("(1+t") == "column 5: expected \")\" for the \"(\" at character 1 of the formula, found the end");
   CHECK(fault_of("") == "column 1: expected a value, found the end");
   CHECK(fault_of("1+") == "column 3: expected a value, found the end");
   CHECK(fault_of("1+)") == "column 3: expected a value, found \")\"");

@@ -207,6 +207,22 @@ TEST_CASE("keys of a graph's numbers count frames by the document's fps, and kee
   CHECK(weighed("[[0, 0], [\"50%\", 1]]").find("these keys run on a clock that has none") != std::string::npos);
 }
 
+TEST_CASE("what is in the other order in a space or a blend is told with the right one, once for each") {
+  const std::string swapped =
+      graph_faults(R"("a": {"space": {"by": "v", "poses": [["walk", 0], ["walk", 1]]}}}, "parameters": {"v": 0)");
+  CHECK(count(swapped, "error:") == 2);
+  CHECK(swapped.find("error: the place comes before the pose: [place, \"walk\"] (at "
+                     "/graphs/g/poses/a/space/poses/0)") != std::string::npos);
+  const std::string blend = graph_faults(R"("a": {"blend": [[0.5, "walk"], ["walk", 1]]})");
+  CHECK(count(blend, "error:") == 1);
+  CHECK(blend.find("error: the pose comes before its weight: [\"walk\", weight] (at /graphs/g/poses/a/blend/0)") !=
+        std::string::npos);
+  const std::string by = graph_faults(
+      R"("a": {"space": {"by": {"parameter": "v"}, "poses": [[0, "walk"], [1, "walk"]]}}}, "parameters": {"v": 0)");
+  CHECK(count(by, "error:") == 1);
+  CHECK(by.find("; write its name alone, \"v\" (at") != std::string::npos);
+}
+
 TEST_CASE("a clip with faults is told of once, not again by the graphs that play it") {
   const std::string text =
       R"({"tweenfall": 1, "nodes": {"hip": {}}, "clips": {"walk": {"tracks": {"hipp.position": [[0, [0, 0, 0]]]}}},

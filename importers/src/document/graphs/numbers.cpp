@@ -50,6 +50,15 @@ GraphPlace read_place(const json::Value& value, Building& building) {
   return place;
 }
 
+std::string swapped_pair(const json::Value& pair, bool name_first) {
+  const json::Items parts = pair.items();
+  const auto is_name = [&](std::size_t i) { return parts[i].is(json::Value::Kind::text); };
+  if (parts.size() != 2 || !is_name(name_first ? 1 : 0) || is_name(name_first ? 0 : 1)) return {};
+  const std::string name = json::in_quotes(parts[name_first ? 1 : 0].text());
+  return name_first ? "the pose comes before its weight: [" + name + ", weight]"
+                    : "the place comes before the pose: [place, " + name + "]";
+}
+
 Form share_form() {
   return bounded("a weight from 0 to 1", 0, false, 1);
 }

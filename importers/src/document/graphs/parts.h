@@ -18,6 +18,8 @@ namespace tweenfall::document::graphs {
 // A node's name, three numbers, or {"node", "at"}.
 const Form* place_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] GraphPlace read_place(const json::Value& value, Building& building);
+// What to say of a pair whose parts are in the other order, or empty. One of the two is a pose's name.
+[[nodiscard]] std::string swapped_pair(const json::Value& pair, bool name_first);
 // A number; true is 1 and false is 0.
 const Form* setting_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] double read_setting(const json::Value& value);

@@ -56,6 +56,7 @@ const Form* blend_form(FormStore& store, const ValueForms& values) {
   part.parts = {values.name, number_form(share_of_a_blend()).in(store, values)};
   part.fewest = 2;
   part.on_one_line = true;
+  part.foremost_fault = [](const json::Value& value) { return swapped_pair(value, true); };
   return store.add(list_of(store.add(std::move(part)), "a list of [pose, weight]", 1, most_blended));
 }
 

@@ -18,12 +18,19 @@ const Form* space_poses_form(FormStore& store, const ValueForms& values) {
   entry.parts = {place_form(store, values), values.name};
   entry.fewest = 2;
   entry.on_one_line = true;
+  entry.foremost_fault = [](const json::Value& value) { return swapped_pair(value, false); };
   return store.add(list_of(store.add(std::move(entry)), "a list of [place, pose]", 1, most_blended));
 }
 
 const Form* by_form(FormStore& store, const ValueForms& values) {
-  return store.add(choice_of("a parameter, or a list of two",
-                             {values.name, store.add(list_of(values.name, "a list of two parameters", 2, 2))}));
+  Form by = choice_of("a parameter, or a list of two",
+                      {values.name, store.add(list_of(values.name, "a list of two parameters", 2, 2))});
+  by.instead = [](const json::Value& value) {
+    const json::Value name = value.find("parameter");
+    return name && name.is(json::Value::Kind::text) ? "; write its name alone, " + json::in_quotes(name.text())
+                                                    : std::string();
+  };
+  return store.add(std::move(by));
 }
 
 const Form* sync_form(FormStore& store, const ValueForms& values) {

@@ -75,8 +75,10 @@ Curve<T> vector_of_parts(const std::vector<Curve<double>>& parts) {
 void add_fault_of_expression(const json::Value& text, const ExpressionError& fault, Problems& problems) {
   // Without escapes, bytes of the text correspond to bytes of the file after the quote.
   const bool plain = text.length() == text.text().size() + 2;
-  problems.add(plain ? json::Fault{text.offset() + 1 + fault.place(), 1, fault.fault()}
-                     : json::Fault{text.offset(), text.length(), fault.what()});
+  problems.add(
+      plain ? json::Fault{text.offset() + 1 + fault.place(), 1, fault.fault()}
+            : json::Fault{text.offset(), text.length(),
+                          "character " + std::to_string(fault.place() + 1) + " of the formula: " + fault.fault()});
 }
 
 std::optional<TrackCurve> read_expression(const json::Value& track, Problems& problems) {
