@@ -121,12 +121,15 @@ Path Path::rebound(std::shared_ptr<const Animation> animation) const {
   return other;
 }
 
-Path Path::recovered(double time, const HandBack& settings, const Motion& body, double released_at) const {
+Path Path::recovered(double time, const HandBack& settings, const Motion& body, double released_at,
+                     const Path* leader) const {
   Path path(animation_, node_, time);
   path.clock_ = handing_over::recovered_clock(*animation_, clock_, time, settings, released_at);
 
   if (settings.anchor == HandBack::Anchor::keep) {
     path.anchor_ = anchor_;
+  } else if (leader) {
+    path.anchor_ = leader->anchor_;
   } else {
     path.anchor_ = handing_over::anchor_onto(path.authored(time, Side::out).motion.pose, body.pose, settings.anchor);
   }

@@ -144,6 +144,58 @@ TEST_CASE("a recovered path takes up where its clock says") {
   }
 }
 
+TEST_CASE("a figure of jointed bodies is anchored as one, by its topmost body, in whatever order they come back") {
+  StageDescription description;
+  const std::vector<std::string> names = {"hips", "thigh", "shin"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    description.nodes.push_back({.name = names[i],
+                                 .parent = i == 0 ? no_node : i - 1,
+                                 .rest = {.position = {i == 0 ? 0 : 0.5, 0, 0}},
+                                 .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 1.0, .collides_with = 0}});
+    if (i > 0)
+      description.joints.push_back({.name = names[i], .a = i - 1, .b = i, .frame_a = {.position = {0.5, 0, 0}}});
+  }
+  const auto turned = [](double x, double z) {
+    return keyed_curve<Quat>({{.time = 0, .value = Quat(1, 0, 0, 0)}, {.time = 4, .value = exp_map(Vec3(x, 0, z))}});
+  };
+  Clip clip{.name = "kick", .duration = 4};
+  clip.tracks = {
+      {"hips", "position", keyed_curve<Vec3>({{.time = 0, .value = {0, 1, 0}}, {.time = 4, .value = {1, 2, 0.5}}})},
+      {"thigh", "rotation", turned(0.3, 1)},
+      {"shin", "rotation", turned(-0.5, 0.8)}};
+  description.clips = {clip};
+  description.plays = {{.clip = 0}};
+  for (const auto anchor : {HandBack::Anchor::here, HandBack::Anchor::ground}) {
+    HandBack back;
+    back.anchor = anchor;
+    std::vector<Pose> ends;
+    for (const std::vector<std::string>& order : {names, std::vector<std::string>{"shin", "hips", "thigh"}}) {
+      description.rules.clear();
+      for (const std::string& name : order) {
+        description.rules.push_back(release_at(0.5, name, {.add = {{0.2, 0, 0.3}, {0.4, 0.9, -0.3}}}));
+        description.rules.push_back(recover_at(1.2, name, back));
+      }
+      Stage stage(description);
+      const std::vector<Path> authored = {stage.path(0), stage.path(1), stage.path(2)};
+      stage.advance_to(2.5);  // long after it has settled
+      const auto from_hips = [](const Pose& hips, const Pose& limb) {
+        return Pose{.position = hips.rotation.conjugate() * Vec3(limb.position - hips.position),
+                    .rotation = hips.rotation.conjugate() * limb.rotation};
+      };
+      const Pose hips = stage.world(0).motion.pose, hips_by_script = authored[0].at(2.5).pose;
+      CHECK((hips.position - hips_by_script.position).norm() > 0.01);  // moved
+      for (const NodeId limb : {NodeId{1}, NodeId{2}}) {
+        const Pose shown = from_hips(hips, stage.world(limb).motion.pose);
+        const Pose wanted = from_hips(hips_by_script, authored[limb].at(2.5).pose);
+        CHECK(near(shown.position, wanted.position, 1e-12));
+        CHECK(near(shown.rotation, wanted.rotation, 1e-12));
+        ends.push_back(stage.world(limb).motion.pose);
+      }
+    }
+    for (const std::size_t i : {0U, 1U}) CHECK(ends[i].position == ends[i + 2].position);
+  }
+}
+
 TEST_CASE("anchored here the path goes on from the body, on the ground it keeps its height and only turns") {
   StageDescription description = tumbler(1.0 / 240);
   for (const auto anchor : {HandBack::Anchor::here, HandBack::Anchor::ground}) {

@@ -39,7 +39,7 @@ const Table<HandBack>& path_table() {
                  time,
                  one_of<HandBack, Anchor>("anchor", "an anchor",
                                           {{"keep", Anchor::keep}, {"here", Anchor::here}, {"ground", Anchor::ground}},
-                                          "where the path lies", &HandBack::anchor)});
+                                          "where the path lies; of a ragdoll, that of its root", &HandBack::anchor)});
   return table;
 }
 

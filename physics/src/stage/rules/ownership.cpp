@@ -62,6 +62,37 @@ Twist take_over_twist(const StagedBody& body, const Motion& arriving, const Take
   return scaled_and_added(twist, settings);
 }
 
+bool are_joined(const StageState& state, NodeId a, NodeId b) {
+  return std::ranges::any_of(state.joints->list, [&](const StagedJoint& joint) {
+    return ((joint.a == a && joint.b == b) || (joint.a == b && joint.b == a)) && state.world.contains(joint.id);
+  });
+}
+
+/// The topmost body of the figure of a body: up to it, each is joined to the next one above.
+const StagedBody& top_of_figure(const StageState& state, const StagedBody& body) {
+  const StagedBody* top = &body;
+  for (NodeId node = (*state.nodes)[body.node].parent; node != no_node; node = (*state.nodes)[node].parent) {
+    const StagedBody* const above = state.body(node);
+    if (above && !are_joined(state, node, top->node)) break;
+    if (above) top = above;
+  }
+  return *top;
+}
+
+/// The path of a body that follows one again. In a figure all are moved alike: as that of its topmost body, even if
+/// that comes later or not at all; else its limbs would go their own ways.
+Path path_again(const StageState& state, const StagedBody& body, const HandBack& hand_back, double begins) {
+  const auto recovered = [&](const StagedBody& one, const Path* leader) {
+    const Vec3 center = state.world.mass(one.id).center;
+    const Motion beginning = moved_on(state.world.motion(one.id), center, begins - state.time);
+    return one.path.recovered(begins, hand_back, beginning, one.released_at, leader);
+  };
+  const StagedBody& top = top_of_figure(state, body);
+  if (hand_back.anchor == HandBack::Anchor::keep || &top == &body) return recovered(body, nullptr);
+  const Path leader = state.world.owner(top.id) == Owner::free ? recovered(top, nullptr) : top.path;
+  return recovered(body, &leader);
+}
+
 /// The nodes without bodies below a body that changes from one path to another at `time`, each from where it is shown.
 std::shared_ptr<const std::vector<SettlingNode>> settling_below(const StageState& state, const StagedBody& body,
                                                                 const Path& next, const Settle& settle, double time) {
@@ -168,9 +199,8 @@ bool change_owner(StageState& state, std::size_t index, const OwnerChange& chang
                          (last == Owner::driven && !hand_back.clip.empty());
     // What is due just after a step is done at the step: the path starts there, or it would not yet have started.
     const double begins = std::min(instant, state.time);
-    const Motion beginning = moved_on(world.motion(body.id), center, begins - state.time);
     const auto below = [&](const Path& next) { return settling_below(state, body, next, hand_back.settle, begins); };
-    const Path path = follows ? body.path.recovered(begins, hand_back, beginning, body.released_at) : body.path;
+    const Path path = follows ? path_again(state, body, hand_back, begins) : body.path;
     world.set_drive(body.id, to);
     if (handoff.from == Owner::driven && last == Owner::free)
       change_own_twist(world, body.id, center, take_over, handoff.after);

@@ -41,8 +41,10 @@ class Path {
   ///
   /// @param body         motion of the node's origin
   /// @param released_at  when the body left its path, s; `Clock::hold` holds the clock from there
+  /// @param leader       if given, the path is moved as that one is, not to the body
   /// @throws std::invalid_argument when `settings.clip` names no clip.
-  [[nodiscard]] Path recovered(double time, const HandBack& settings, const Motion& body, double released_at) const;
+  [[nodiscard]] Path recovered(double time, const HandBack& settings, const Motion& body, double released_at,
+                               const Path* leader = nullptr) const;
 
   [[nodiscard]] const Animation& animation() const noexcept { return *animation_; }
   [[nodiscard]] std::size_t node() const noexcept { return node_; }

@@ -99,8 +99,9 @@ struct HandBack {
   enum class Clock { run, hold, restart };
   Clock clock = Clock::run;  ///< run: as if never released; hold: paused at the release; restart: from the clip's start
   enum class Anchor { keep, here, ground };
-  Anchor anchor = Anchor::keep;  ///< keep: the path where it was authored; here: moved to the body; ground: moved and
-                                 ///< turned on the ground only
+  /// keep: the path where it was authored; here: moved to the body; ground: moved and turned on the ground only. The
+  /// path of a body that joints hold to the bodies above it, as in a ragdoll, is moved as that of the topmost one.
+  Anchor anchor = Anchor::keep;
   Settle settle = {};
 };
 
