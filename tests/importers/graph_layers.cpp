@@ -109,3 +109,35 @@ TEST_CASE("long names and words stand whole in a graph's picture, and boxes get 
   CHECK(width(picture("run", "running")) == width(usual));
   CHECK(width(picture("walk", std::string(500, 'w'))) < width(usual) + 300);
 }
+
+TEST_CASE("poses that only change one another stand below each other in a graph's picture, not in one long row") {
+  GraphDescription graph{.name = "figure", .poses = {{"walking", ClipPose{.clip = "walk"}}}};
+  const auto change = [&](const std::string& name, const std::string& base) {
+    graph.poses.push_back({name, MirrorPose{.base = base}});
+  };
+  const auto place = [&](const std::string& svg, const std::string& name) {
+    const std::size_t text = svg.rfind("<text", svg.find(">" + name + "<"));
+    const auto number = [&](const std::string& of) {
+      return std::stod(svg.substr(svg.find(of + "=\"", text) + of.size() + 2));
+    };
+    return Vec2(number(" x"), number(" y"));
+  };
+  // Written in another order than they stand in.
+  change("last", "third");
+  change("second", "walking");
+  change("third", "second");
+  graph.output = "last";
+  const std::string svg = graph_svg({&graph, 1});
+  const char* const names[] = {"walking", "second", "third", "last"};
+  for (std::size_t i = 1; i < std::size(names); ++i) {
+    CHECK(place(svg, names[i]).x() == place(svg, names[0]).x());
+    CHECK(place(svg, names[i]).y() > place(svg, names[i - 1]).y() + 40);
+  }
+  // What two others use is the end of its stack.
+  graph.poses.push_back({"both", BlendPose{{{"third", 1.0}, {"last", 1.0}}}});
+  graph.output = "both";
+  const std::string shared = graph_svg({&graph, 1});
+  CHECK(place(shared, "third").x() == place(shared, "walking").x());
+  CHECK(place(shared, "last").x() > place(shared, "third").x());
+  CHECK(place(shared, "both").x() > place(shared, "last").x());
+}

@@ -13,6 +13,7 @@ constexpr double narrowest_box = 150, widest_box = 340;
 constexpr double tree_box_height = 40, between_columns = 160, tree_gap = 12;  // px
 /// Of a wire before the box to which it comes, where its words stand on it; and from one such wire to the next, px.
 constexpr double port_length = 92, port_spacing = 14;
+constexpr double between_stacked = 14;  // px
 
 }  // namespace
 
@@ -32,25 +33,42 @@ PoseTree::PoseTree(const GraphDescription& graph) {
   }
   if (things_.empty()) return;
   if (graph.output.empty()) output_ = things_.size() - 1;
+  stack_up();
   place(output_);
   for (std::size_t i = 0; i < things_.size(); ++i)
     if (!things_[i].placed) place(i);
-  std::vector<std::size_t> columns;
-  std::vector<double> heights;
-  std::vector<Layers::Wire> wires;
   for (std::size_t i = 0; i < things_.size(); ++i) {
     std::size_t ports = 0;
     for (const GraphOperand& operand : things_[i].operands) {
       const std::size_t part = thing_of(operand);
       if (part == things_.size() || things_[part].column >= things_[i].column) continue;
       wires_.push_back({part, i, operand.clip ? "" : operand.role});
-      wires.push_back({part, i});
       ++ports;
     }
-    columns.push_back(things_[i].column);
     things_[i].height = std::max(tree_box_height, port_spacing * static_cast<double>(ports + 1));
-    heights.push_back(things_[i].height + tree_gap);
   }
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    if (things_[i].head != i) continue;
+    things_[i].cell = columns.size();
+    columns.push_back(things_[i].column);
+  }
+  stack_heights_.assign(columns.size(), 0);
+  // In the order of each stack, which need not be that of the poses.
+  std::vector<std::size_t> order(things_.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return things_[i].depth; });
+  for (const std::size_t i : order) {
+    Thing& thing = things_[i];
+    thing.cell = things_[thing.head].cell;
+    double& height = stack_heights_[thing.cell];
+    thing.drop = height > 0 ? height + between_stacked : 0;
+    height = thing.drop + thing.height;
+  }
+  std::vector<double> heights = stack_heights_;
+  for (double& height : heights) height += tree_gap;
+  std::vector<Layers::Wire> wires;
+  for (const Wire& wire : wires_) wires.push_back({things_[wire.from].cell, things_[wire.to].cell});
   layers_.emplace(columns, heights, std::move(wires));
   height_ = layers_->height();
   things_[output_].words += ", shows";
@@ -76,9 +94,32 @@ std::size_t PoseTree::thing_of(const GraphOperand& operand) const {
   return things_.size();
 }
 
+// A pose of one other, which only it uses and which is not made of several, stands below that.
+void PoseTree::stack_up() {
+  std::vector<std::size_t> uses(things_.size(), 0), above(things_.size(), things_.size());
+  for (std::size_t i = 0; i < things_.size(); ++i)
+    for (const GraphOperand& operand : things_[i].operands)
+      if (const std::size_t part = thing_of(operand); part < things_.size()) {
+        ++uses[part];
+        const bool alone = things_[i].operands.size() == 1 && things_[part].operands.size() <= 1;
+        if (alone && !things_[part].is_clip) above[i] = part;
+      }
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    Thing& thing = things_[i];
+    thing.head = i;
+    while (above[thing.head] < things_.size() && uses[above[thing.head]] == 1 && thing.depth < things_.size()) {
+      thing.head = above[thing.head];
+      ++thing.depth;
+    }
+    thing.above = above[i];
+  }
+}
+
 // What it is made of comes first.
 std::size_t PoseTree::place(std::size_t index) {
   things_[index].placed = true;
+  if (const std::size_t head = things_[index].head; head != index)
+    return things_[index].column = things_[head].placed ? things_[head].column : place(head);
   std::size_t column = 0;
   for (const GraphOperand& operand : std::vector<GraphOperand>(things_[index].operands)) {
     const std::size_t part = thing_of(operand);
@@ -90,8 +131,10 @@ std::size_t PoseTree::place(std::size_t index) {
 
 Rectangle PoseTree::box(std::size_t thing, double left, double top) const {
   const Column& column = columns_[things_[thing].column];
-  return around({left + column.left + column.width / 2, top + layers_->middle_of(thing)}, column.width,
-                things_[thing].height);
+  const Thing& one = things_[thing];
+  const double stack_top = layers_->middle_of(one.cell) - stack_heights_[one.cell] / 2;
+  return around({left + column.left + column.width / 2, top + stack_top + one.drop + one.height / 2}, column.width,
+                one.height);
 }
 
 // Straight through the columns that it skips, bent between them, and straight again where its words stand on it.
@@ -124,7 +167,14 @@ void PoseTree::draw_wire(SvgWriter& svg, std::size_t wire, double end_y, double 
 
 void PoseTree::draw(SvgWriter& svg, double left, double top) const {
   for (std::size_t i = 0; i < things_.size(); ++i) {
-    const std::vector<std::size_t> wires = layers_->wires_to(i);
+    if (things_[i].head != i) {
+      const Rectangle from = box(things_[i].above, left, top), to = box(i, left, top);
+      svg.leaf("path", {{"d", "M" + px(from.center().x(), from.bottom) + " L" + px(to.center().x(), to.top)},
+                        {"stroke", "#afb8c1"},
+                        {"stroke-width", "1.4"}});
+      continue;
+    }
+    const std::vector<std::size_t> wires = layers_->wires_to(things_[i].cell);
     const double first = box(i, left, top).center().y() - port_spacing * (static_cast<double>(wires.size()) - 1) / 2;
     for (std::size_t port = 0; port < wires.size(); ++port)
       draw_wire(svg, wires[port], first + port_spacing * static_cast<double>(port), left, top);
