@@ -10,12 +10,40 @@ namespace tweenfall::graphs {
 
 namespace {
 
+bool is_moved_by_clips(const Operation& operation, std::size_t node) {
+  const auto moves = [&](const pose::BoundClip* clip) { return clip->entry_of(node) != pose::BoundClip::no_entry; };
+  return std::ranges::any_of(operation.own_clips(), moves) ||
+         std::ranges::any_of(operation.operands(),
+                             [&](const Operation* part) { return is_moved_by_clips(*part, node); });
+}
+
+/// What stands above a figure and is not moved by its clips, the nearest first: the figure rides on it. Nothing where
+/// its clips move no node from `node` up.
+std::vector<std::size_t> carriers_of(const Hierarchy& nodes, std::size_t node, const Operation* clips) {
+  std::vector<std::size_t> above;
+  bool moved = false;
+  for (std::size_t i = node; clips && i != no_node; i = nodes[i].parent) {
+    above.push_back(i);
+    if (!is_moved_by_clips(*clips, i)) continue;
+    moved = true;
+    above.clear();
+  }
+  return moved ? above : std::vector<std::size_t>();
+}
+
 class OnTheSpot : public Changing {
  public:
-  OnTheSpot(Changed changed, RootMotion root, std::optional<RootMotion> onto)
-      : Changing(std::move(changed)), root_(std::move(root)), onto_(std::move(onto)) {}
+  OnTheSpot(Changed changed, const Hierarchy& nodes, RootMotion root, std::optional<RootMotion> onto)
+      : Changing(std::move(changed)),
+        nodes_(nodes),
+        root_(std::move(root)),
+        onto_(std::move(onto)),
+        carriers_(carriers_of(nodes, root_.node(), base())) {
+    const auto found = onto_ ? std::ranges::find(carriers_, onto_->node()) : carriers_.end();
+    if (found != carriers_.end()) moving_ = static_cast<std::size_t>(found - carriers_.begin()) + 1;
+  }
 
-  void accumulate(const Hierarchy& nodes, std::size_t number) { travel_.emplace(nodes, root_, base(), number); }
+  void accumulate(std::size_t number) { travel_.emplace(nodes_, root_, base(), number); }
 
  protected:
   void change(const Log& log, const Moment& moment, const Sample<double>& weight, const Scratch& scratch,
@@ -24,18 +52,31 @@ class OnTheSpot : public Changing {
     Motion frame;
     if (travel_) frame = travel_->at(log, moment, changed);
     std::ranges::copy(pose, changed.begin());
+    // In the space of what carries the figure, which rests meanwhile.
+    for (const std::size_t node : carriers_) {
+      changed[node] = {};
+      changed[node].pose = nodes_[node].rest;
+    }
+    const auto move_on = [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) changed[carriers_[i]] = pose[carriers_[i]];
+    };
     const Motion taken = root_.take_out(changed);
     if (!travel_) frame = taken;
+    move_on(0, moving_);
     if (onto_)
       onto_->put_back(changed, frame);
     else if (travel_)
       root_.put_back(changed, frame);
+    move_on(moving_, carriers_.size());
     cross_fade(pose, changed, weight, pose);
   }
 
  private:
+  const Hierarchy& nodes_;
   RootMotion root_;
   std::optional<RootMotion> onto_;
+  std::vector<std::size_t> carriers_;
+  std::size_t moving_ = 0;  // of the carriers: those up to `onto`
   std::optional<Travel> travel_{};
 };
 
@@ -68,8 +109,9 @@ std::unique_ptr<Operation> bound(const RootMotionPose& described, Binder& binder
   if (!root || !changed.whole) return nullptr;
   binder.moves(node);
   if (onto != no_node) binder.moves(onto);
-  auto operation = std::make_unique<OnTheSpot>(std::move(changed), *std::move(root), std::move(carrier));
-  if (described.accumulates) operation->accumulate(binder.nodes(), binder.new_travel());
+  auto operation =
+      std::make_unique<OnTheSpot>(std::move(changed), binder.nodes(), *std::move(root), std::move(carrier));
+  if (described.accumulates) operation->accumulate(binder.new_travel());
   operation->set_rooms(1);
   return operation;
 }

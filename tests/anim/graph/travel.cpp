@@ -327,3 +327,56 @@ TEST_CASE("blended walkers of any lengths drift no more in ten thousand laps tha
     CHECK(rate_error(sought, 60.4) < 1e-6);
   }
 }
+
+TEST_CASE("a figure rides on what carries it and is not moved by its clips, on the spot, travelling, or put onto it") {
+  const auto nodes = std::make_shared<const Hierarchy>(
+      std::vector<Node>{{"world", no_node, {.position = {3, 0, 0}}},
+                        {"platform", 0, {.position = {0, 0.5, 0}, .rotation = exp_map(Vec3(0, 0.3, 0))}},
+                        {"root", 1, {.position = {0, 1, 0}}},
+                        {"upper", 2, {.position = {0.3, 0, 0}}}});
+  GraphGround ground;
+  const auto rides = [](double time) {
+    Motion motion;
+    motion.pose.position = {2 * time, 0.5 + time, 0};
+    motion.pose.rotation = exp_map(Vec3(0, 0.3 + 0.7 * time, 0));
+    motion.twist = {{2, 1, 0}, {0, 0.7, 0}};
+    return motion;
+  };
+  ground.pose = [&](double time, Side, std::span<Motion> out) {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i] = {};
+      out[i].pose = (*nodes)[i].rest;
+    }
+    out[1] = rides(time);
+  };
+  for (const bool accumulates : {false, true}) {
+    for (const std::string onto : {"", "platform"}) {
+      CAPTURE(accumulates);
+      CAPTURE(onto);
+      const auto made = [&](GraphGround below) {
+        return GraphPlayer(std::make_shared<const Graph>(
+                               nodes, walkers(),
+                               GraphDescription{.poses = {{"walk", ClipPose{.clip = "arc"}},
+                                                          {"way", RootMotionPose{.base = "walk",
+                                                                                 .node = "root",
+                                                                                 .onto = onto,
+                                                                                 .accumulates = accumulates}}}}),
+                           std::move(below));
+      };
+      GraphPlayer riding = made(ground), resting = made({});
+      for (const double time : {0.25, 2.6}) {
+        const std::vector<Motion> moves = pose_at(riding, time), stands = pose_at(resting, time);
+        for (const std::size_t own : {2U, 3U}) CHECK(near(moves[own].pose.position, stands[own].pose.position, 1e-12));
+        if (onto.empty()) {
+          CHECK(same_bits({moves[1]}, {rides(time)}));
+        } else {
+          // It goes its own way, and the figure's on top of that.
+          const Pose rest = (*nodes)[1].rest;
+          const Quat turn = stands[1].pose.rotation * rest.rotation.conjugate();
+          CHECK(near(moves[1].pose.rotation, turn * rides(time).pose.rotation, 1e-12));
+        }
+        CHECK(rate_error(riding, time) < 1e-9);
+      }
+    }
+  }
+}
