@@ -98,17 +98,18 @@ TEST_CASE("a scaled body is shown with its scale, and weighs what collides") {
   CHECK(ran.out.find("plain  sphere, radius 0.5                       523.6") != std::string::npos);
 }
 
-TEST_CASE("inspect shows how clips are played, which nodes layers reach, and what a graph does on events") {
+TEST_CASE("inspect shows how clips are played, which nodes layers reach, what a graph does on events, and its inputs") {
   const Folder folder;
   const Ran ran = folder.run("inspect -", R"({"tweenfall": 1, "nodes": {"hip": {}, "arm": {"parent": "hip"}},
     "clips": {"wave": {"tracks": {"arm.rotation": {"axis": "z", "keys": [[0, 0], [1, 90]]}}, "events": [[0.5, "up"]]}},
     "play": [{"name": "hello", "clip": "wave", "at": 0.5, "weight": 0.75, "fade_in": 0.25, "mask": "ar*"},
              {"clip": "wave", "weight": [[0, 0], [1, 1]]}],
     "graphs": {"figure": {"parameters": {"speed": 0}, "poses": {
-      "all": {"layers": [{"over": "wave", "mask": {"joints": "hip", "below": true}}]}}, "on": [["up", "speed", 2]]}}})");
+      "all": {"layers": [{"over": "wave", "mask": {"joints": "hip", "below": true}}]}}, "on": [["up", "speed", 2]], "inputs": [[0.375, "speed", 1.5]]}}})");
   REQUIRE_MESSAGE(ran.code == 0, ran.err);
   CHECK(line_of(ran.out, "wave  ")
             .ends_with("hello from 0.5 s, weight 0.75, fades in 0.25 s, on ar*; from 0 s, weight by keys"));
   CHECK(words(line_of(ran.out, "all     wave")) == std::vector<std::string>{"all", "wave", "hip", "and", "below", "1"});
   CHECK(line_of(ran.out, "up  ").ends_with("sets speed to 2"));
+  CHECK(line_of(ran.out, "0.375").ends_with("sets speed to 1.5"));
 }

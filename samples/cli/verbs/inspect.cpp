@@ -296,11 +296,21 @@ std::string masks_table(const GraphDescription& graph) {
   return table.empty() ? "" : table.text(styled_output());
 }
 
+std::string setting_text(const std::string& name, const std::optional<double>& value) {
+  return value ? "sets " + name + " to " + brief_text(*value) : "sends " + name;
+}
+
 std::string reactions_table(const GraphDescription& graph) {
   Table table("what the graph " + graph.name + " does on events", {"event", "does"});
   for (const GraphReaction& reaction : graph.reactions)
-    table.row({reaction.event, reaction.value ? "sets " + reaction.name + " to " + brief_text(*reaction.value)
-                                              : "sends " + reaction.name});
+    table.row({reaction.event, setting_text(reaction.name, reaction.value)});
+  return table.empty() ? "" : table.text(styled_output());
+}
+
+std::string inputs_table(const GraphDescription& graph) {
+  Table table("inputs of the graph " + graph.name, {">time, s", "does"});
+  for (const GraphInput& input : graph.inputs)
+    table.row({brief_text(input.time), setting_text(input.name, input.value)});
   return table.empty() ? "" : table.text(styled_output());
 }
 
@@ -330,7 +340,8 @@ std::string transitions_table(const GraphPose& pose, const MachinePose& machine)
 std::string graph_tables(const StageDescription& stage) {
   std::string out;
   for (const GraphDescription& graph : stage.graphs) {
-    out += parameters_table(graph) + reactions_table(graph) + poses_table(graph) + masks_table(graph);
+    out += parameters_table(graph) + inputs_table(graph) + reactions_table(graph) + poses_table(graph) +
+           masks_table(graph);
     for (const GraphPose& pose : graph.poses)
       if (const auto* machine = std::get_if<MachinePose>(&pose.operation)) out += transitions_table(pose, *machine);
   }
