@@ -63,8 +63,8 @@ void World::Implementation::drop_contacts(std::uint32_t index) {
   // Bodies that touched with several parts ended one contact.
   const auto pair_of = [](const EndedContact& contact) { return pairs::Pair(contact.a.index, contact.b.index); };
   std::ranges::sort(gone_contacts.begin() + from, gone_contacts.end(), {}, pair_of);
-  const auto same = std::ranges::unique(gone_contacts.begin() + from, gone_contacts.end(), {}, pair_of);
-  gone_contacts.erase(same.begin(), same.end());
+  const auto same = [&](const EndedContact& one, const EndedContact& next) { return pair_of(one) == pair_of(next); };
+  gone_contacts.erase(std::unique(gone_contacts.begin() + from, gone_contacts.end(), same), gone_contacts.end());
   told.forget();
 }
 
