@@ -241,3 +241,30 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("capsules that slide keep their bits beside far ones that resist spinning") {
+  World alone, beside;
+  std::vector<BodyId> ones, others;
+  for (World* world : {&alone, &beside}) {
+    world->add({.shape = {Box{{1000, 1, 1000}}}, .fixed = true, .motion = {.pose = {.position = {0, -1, 0}}}});
+    for (int i = 0; i < 8; ++i) {
+      BodySettings capsule{.shape = {Capsule{0.1, 0.2 + 0.01 * i}}, .mass = 1};
+      capsule.motion.pose = {.position = {2.0 * i, 0.1, 0},
+                             .rotation = Quat::FromTwoVectors(Vec3(0, 1, 0), Vec3(1, 0, 0))};
+      capsule.motion.twist = {Vec3(1, 0, 0.3), Vec3(0, 0.4, 0)};
+      (world == &alone ? ones : others).push_back(world->add(capsule));
+      capsule.motion.pose.position.z() = 500;
+      capsule.spinning_friction = 0.01;
+      if (world == &beside) world->add(capsule);
+    }
+  }
+  for (int n = 0; n < 60; ++n) {
+    CAPTURE(n);
+    alone.step(1.0 / 60);
+    beside.step(1.0 / 60);
+    for (std::size_t i = 0; i < ones.size(); ++i) {
+      REQUIRE(beside.motion(others[i]).twist.linear == alone.motion(ones[i]).twist.linear);
+      REQUIRE(beside.motion(others[i]).pose.position == alone.motion(ones[i]).pose.position);
+    }
+  }
+}

@@ -215,6 +215,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
   double fastest = 0;
   for (ContactConstraint* contact : island.contacts) {
     if (contact->rolling_friction > 0) return std::nullopt;
+    effort.spins = effort.spins || contact->spinning_friction > 0;
     const Body &a = bodies[contact->a], &b = bodies[contact->b];
     for (const Body* body : {&a, &b}) {
       if (drives(*body)) return std::nullopt;

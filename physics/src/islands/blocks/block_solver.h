@@ -34,6 +34,7 @@ class BlockSolver {
     bool heap = false;         ///< many bodies press on each other
     bool alone = false;        ///< not together with other islands
     bool single = false;       ///< one contact: all passes over it are made at once, until one changes nothing
+    bool spins = false;        ///< contacts resist spinning: where one does, impulses do not carry on between sub-steps
 
     bool operator==(const Effort&) const = default;
   };
