@@ -100,7 +100,9 @@ class JointRows {
   /// need too many rounds of changing places.
   void drive(const Direction& direction, double position, const Motor* motor, const Allowed& allowed = {});
   void draw(const Direction& direction, double error, double speed, double hz, double zeta, double most);
-  void spring(const Direction& direction, double error, double stiffness, double damping);
+  /// @param rate  of the error, with which the sub-step begins
+  void spring(const Direction& direction, const Placement& at, double error, double rate, double stiffness,
+              double damping);
   void idle(std::size_t rows = 1);
   /// Acceleration of a length in the sub-step if its ends keep their velocities.
   /// @param side  along it, of length 1

@@ -123,3 +123,35 @@ TEST_CASE("a stretched spring joint, however stiff, keeps the momentum of bodies
       }
     }
 }
+
+TEST_CASE("what swings on an undamped spring joint keeps its swing and its time, alone and between two") {
+  for (const double other : {0.0, 20.0})  // kg at the other end; 0: the world
+    for (const double hz : {0.5, 1.0, 2.0})
+      for (const double dt : {1.0 / 60, 1.0 / 240}) {
+        CAPTURE(other);
+        CAPTURE(hz);
+        CAPTURE(dt);
+        World world({.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()});
+        BodySettings ball{.shape = {Sphere{0.1}}, .mass = 1.0};
+        ball.motion.pose.position = Vec3(1.2, 0, 0);
+        const BodyId body = world.add(ball);
+        BodyId end;
+        if (other > 0) end = world.add({.shape = {Sphere{0.1}}, .mass = other});
+        const double mass = other > 0 ? other / (1 + other) : 1, w = 2 * test::pi * hz;
+        const JointId spring =
+            world.add_joint({.a = end, .b = body, .kind = SpringJoint{.length = 1, .stiffness = mass * w * w}});
+        double swing = 0, away = 0, most = 0;
+        const int steps = static_cast<int>(std::lround(10 / dt));
+        for (int i = 1; i <= steps; ++i) {
+          world.step(dt);
+          const JointReading reading = world.reading(spring);
+          const double x = reading.position[0] - 1, v = reading.rate[0];
+          away = std::max(away, std::abs(x - 0.2 * std::cos(w * i * dt)));
+          most = std::max(most, (w * w * x * x + v * v) / (w * w * 0.04));
+          if (i * dt > 8) swing = std::max(swing, std::abs(x));
+        }
+        CHECK(near(swing, 0.2, 2e-3));
+        CHECK(away < 0.05 * w * dt);
+        CHECK(most < 1 + 0.2 * w * dt);
+      }
+}

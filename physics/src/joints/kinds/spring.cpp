@@ -9,9 +9,11 @@ Coordinates coordinates_of(const SpringJoint&, const state::Joint& joint, const 
 void write_rows(const SpringJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   const Coordinates length = coordinates_of(kind, joint, at);
   // The impulse keeps its direction while its line turns.
-  rows.keep_of_next(0, joint.side.dot(length.direction[0].linear_b));
-  joint.side = length.direction[0].linear_b;
-  rows.spring(length.direction[0], length.position[0] - kind.length, kind.stiffness, kind.damping);
+  const Vec3& side = length.direction[0].linear_b;
+  rows.keep_of_next(0, joint.side.dot(side));
+  joint.side = side;
+  rows.spring(length.direction[0], at, length.position[0] - kind.length, side.dot(at.gap_rate()), kind.stiffness,
+              kind.damping);
 }
 
 }  // namespace tweenfall::joints
