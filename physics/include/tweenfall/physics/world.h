@@ -124,12 +124,12 @@ struct Contact {
   double impulse = 0;           ///< sum of normal impulses of the step, N s; >= 0
   Vec3 total_impulse{0, 0, 0};  ///< on b, friction included, N s
   double approach_speed = 0;    ///< normal speed at which the two met, before the step's impulses, m/s
-  bool began = false;           ///< the pair did not touch in the step before
+  bool began = false;           ///< the pair, or these parts of it, did not touch in the step before
   std::uint32_t part_a = 0,
                 part_b = 0;  ///< index of the touching part of a compound; of a mesh or field: of the contact place
 };
 
-/// Two bodies that touched before and no longer do.
+/// Two bodies that touched before and no longer do, with any of their parts.
 struct EndedContact {
   BodyId a, b;  ///< may have been removed
 };
