@@ -43,12 +43,14 @@ struct RetargetPose {
 };
 
 /// The motion that carries a figure through the world is taken out of its pose, as by `RootMotion`, and carries another
-/// node, or none: then the figure moves on the spot.
+/// node, or none: then the figure moves on the spot. It rides on the nodes above it that the clips of its base do not
+/// move: their own movement is not taken out.
 ///
 /// If it accumulates, the figure instead travels on from loop to loop and from clip to clip: its path is the sum of the
 /// steps of the clips in the base, mixed by the weights that they have in blends, spaces, layers and machines. Adding,
 /// mirroring or retargeting there does not change the steps. It begins at the clips' own place when the graph, or the
-/// state around it, begins. Loops of one clip are repeated in closed form: ten thousand are exact.
+/// state around it, begins. Loops of one clip are repeated in closed form, and so are the laps of several of constant
+/// weights: ten thousand are exact.
 struct RootMotionPose {
   std::string base{};
   std::string node;
