@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace tweenfall {
 
@@ -30,6 +31,41 @@ Pose anchor_onto(const Pose& path, const Pose& body, HandBack::Anchor kind) {
   anchor.position = body.position - anchor.rotation * path.position;
   if (kind == HandBack::Anchor::ground) anchor.position.y() = 0;
   return anchor;
+}
+
+Motion without_size(Motion motion) {
+  motion.pose.scale = Vec3(1, 1, 1);
+  motion.scale_rate.setZero();
+  return motion;
+}
+
+/// The motion of one thing in the axes of another, whatever their sizes.
+Motion seen_from(const Motion& other, const Motion& motion) {
+  return relative_to(without_size(other), without_size(motion));
+}
+
+bool is_below(const Hierarchy& nodes, std::size_t node, std::size_t above) {
+  for (node = nodes[node].parent; node != no_node && node > above;) node = nodes[node].parent;
+  return node == above;
+}
+
+/// A motion with its offset, as seen from another thing that is shown where it is not led.
+Motion along(const SettleOffset& offset, double time, const Motion& motion, const Motion& led, const Motion& shown) {
+  Motion settling = compose(without_size(shown), offset.apply(time, seen_from(led, motion)));
+  settling.pose.rotation.normalize();
+  settling.pose.scale = motion.pose.scale;
+  settling.scale_rate = motion.scale_rate;
+  return settling;
+}
+
+/// The world motion of a node below another, given that one's. @param local_of  the local motion of a node
+template <class LocalOf>
+WorldMotion descended(const Hierarchy& nodes, std::size_t node, std::size_t above, WorldMotion world,
+                      const LocalOf& local_of) {
+  std::vector<std::size_t> way;
+  for (; node != above; node = nodes[node].parent) way.push_back(node);
+  for (auto it = way.rbegin(); it != way.rend(); ++it) world = child_of(world, local_of(*it));
+  return world;
 }
 
 /// The clock of a body that comes back at `time` to plays that ran by `before` when it left them at `released_at`.
@@ -98,31 +134,80 @@ WorldMotion Path::anchored(const WorldMotion& authored) const noexcept {
   return carried(authored, moved);
 }
 
-WorldMotion Path::world(double stage_time, Side side) const noexcept {
-  return world(stage_time, authored(stage_time, side));
+bool Path::settled(double stage_time) const noexcept {
+  return settle_.over(stage_time) && (!above_ || above_->settled(stage_time));
 }
 
-WorldMotion Path::world(double stage_time, const WorldMotion& authored) const noexcept {
+Motion Path::settling(double stage_time, const Motion& anchored, Side side) const noexcept {
+  if (!above_) return settle_.apply(stage_time, anchored);
+  if (settled(stage_time)) return anchored;
+  std::vector<const Path*> above;  // up to the topmost, or to one that is where it belongs
+  for (const Path* path = above_.get(); path; path = path->above_.get()) {
+    above.push_back(path);
+    if (path->settled(stage_time)) break;
+  }
+  // From there down, so that the animation is sampled once and not anew for each.
+  WorldMotion scripted;
+  Motion led, shown;
+  const Path* last = nullptr;
+  for (auto it = above.rbegin(); it != above.rend(); last = *it, ++it) {
+    const Path& path = **it;
+    const Side own = path.side_at(stage_time, side);
+    const bool same = last && path.animation_ == last->animation_ && path.clock_ == last->clock_ &&
+                      own == last->side_at(stage_time, side);
+    scripted = same ? handing_over::descended(path.animation_->nodes(), path.node_, last->node_, scripted,
+                                              [&](std::size_t node) {
+                                                return path.animation_->sample_node(node, stage_time, own, path.clock_);
+                                              })
+                    : path.authored(stage_time, side);
+    const Motion follows = path.anchored(scripted).motion;
+    shown = last ? handing_over::along(path.settle_, stage_time, follows, led, shown)
+                 : path.settle_.apply(stage_time, follows);
+    led = follows;
+  }
+  return handing_over::along(settle_, stage_time, anchored, led, shown);
+}
+
+WorldMotion Path::world(double stage_time, Side side) const noexcept {
+  return world(stage_time, authored(stage_time, side), side);
+}
+
+WorldMotion Path::world(double stage_time, const WorldMotion& authored, Side side) const noexcept {
   const WorldMotion path = anchored(authored);
-  return carried(path, settle_.apply(stage_time, path.motion));
+  return carried(path, settling(stage_time, path.motion, side_at(stage_time, side)));
 }
 
 Motion Path::at(double stage_time, Side side) const noexcept {
-  return at(stage_time, authored(stage_time, side));
+  return at(stage_time, authored(stage_time, side), side);
 }
 
-Motion Path::at(double stage_time, const WorldMotion& authored) const noexcept {
-  return settle_.apply(stage_time, anchored(authored).motion);
+Motion Path::at(double stage_time, const WorldMotion& authored, Side side) const noexcept {
+  return settling(stage_time, anchored(authored).motion, side_at(stage_time, side));
 }
 
 Path Path::rebound(std::shared_ptr<const Animation> animation) const {
   Path other = *this;
+  if (above_) other.above_ = std::make_shared<const Path>(above_->rebound(animation));
   other.animation_ = std::move(animation);
   return other;
 }
 
-Path Path::recovered(double time, const HandBack& settings, const Motion& body, double released_at,
-                     const Path* leader) const {
+void Path::settle_from(const Motion& body, const Settle& settle, const Path* above) {
+  const Motion wanted = anchored(authored(since_, Side::out)).motion;
+  if (!above) {
+    settle_ = SettleOffset(settle, since_, wanted, body);
+    return;
+  }
+  if (!handing_over::is_below(animation_->nodes(), node_, above->node_))
+    throw std::invalid_argument("a path can settle only as seen from that of a node above its own");
+  above_ = std::make_shared<const Path>(*above);
+  const Motion led = above->anchored(above->authored(since_, Side::out)).motion;
+  settle_ = SettleOffset(settle, since_, handing_over::seen_from(led, wanted),
+                         handing_over::seen_from(above->at(since_), body));
+}
+
+Path Path::recovered(double time, const HandBack& settings, const Motion& body, double released_at, const Path* leader,
+                     const Path* above) const {
   Path path(animation_, node_, time);
   path.clock_ = handing_over::recovered_clock(*animation_, clock_, time, settings, released_at);
 
@@ -133,7 +218,13 @@ Path Path::recovered(double time, const HandBack& settings, const Motion& body, 
   } else {
     path.anchor_ = handing_over::anchor_onto(path.authored(time, Side::out).motion.pose, body.pose, settings.anchor);
   }
-  path.settle_ = SettleOffset(settings.settle, time, path.anchored(path.authored(time, Side::out)).motion, body);
+  path.settle_from(body, settings.settle, above);
+  return path;
+}
+
+Path Path::along(const Path& above) const {
+  Path path = *this;
+  path.settle_from(at(since_), settle_.settle(), &above);
   return path;
 }
 

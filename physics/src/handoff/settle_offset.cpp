@@ -56,6 +56,11 @@ SettleOffset::SettleOffset(const Settle& settle, double time, const Motion& path
   }
 }
 
+bool SettleOffset::over(double time) const noexcept {
+  constexpr double half_lives = 60;
+  return !any_ || time - start_ >= settle_.seconds * (settle_.kind == Settle::Kind::half_life ? half_lives : 1);
+}
+
 Motion SettleOffset::apply(double time, const Motion& path) const noexcept {
   if (!any_) return path;
   const double since = std::max(0.0, time - start_);  // just before its start, it is as at its start

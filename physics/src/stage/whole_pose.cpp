@@ -24,11 +24,12 @@ bool WholePose::follows(const StagedBody& body) const {
 }
 
 Motion WholePose::at(const StagedBody& body) {
-  return follows(body) ? body.path.at(time_, authored(body.node)) : body.path.at(time_, side_);
+  return follows(body) ? body.path.at(time_, authored(body.node), side_) : body.path.at(time_, side_);
 }
 
 WorldMotion WholePose::world(const StagedBody& body) {
-  return body.sized(time_, follows(body) ? body.path.world(time_, authored(body.node)) : body.path.world(time_, side_));
+  return body.sized(time_,
+                    follows(body) ? body.path.world(time_, authored(body.node), side_) : body.path.world(time_, side_));
 }
 
 }  // namespace tweenfall::staging

@@ -68,29 +68,50 @@ bool are_joined(const StageState& state, NodeId a, NodeId b) {
   });
 }
 
+/// The next body above, if the two are joined; else null.
+const StagedBody* joined_above(const StageState& state, const StagedBody& body) {
+  for (NodeId node = (*state.nodes)[body.node].parent; node != no_node; node = (*state.nodes)[node].parent)
+    if (const StagedBody* const above = state.body(node)) return are_joined(state, node, body.node) ? above : nullptr;
+  return nullptr;
+}
+
 /// The topmost body of the figure of a body: up to it, each is joined to the next one above.
 const StagedBody& top_of_figure(const StageState& state, const StagedBody& body) {
   const StagedBody* top = &body;
-  for (NodeId node = (*state.nodes)[body.node].parent; node != no_node; node = (*state.nodes)[node].parent) {
-    const StagedBody* const above = state.body(node);
-    if (above && !are_joined(state, node, top->node)) break;
-    if (above) top = above;
-  }
+  while (const StagedBody* const above = joined_above(state, *top)) top = above;
   return *top;
 }
 
+bool on_its_way(const StageState& state, const StagedBody& body) {
+  return state.world.owner(body.id) != Owner::free && !state.world.is_fixed(body.id);
+}
+
 /// The path of a body that follows one again. In a figure all are moved alike: as that of its topmost body, even if
-/// that comes later or not at all; else its limbs would go their own ways.
+/// that comes later or not at all; else its limbs would go their own ways. And each settles along with the one above,
+/// if that follows a path; else their joint would open.
 Path path_again(const StageState& state, const StagedBody& body, const HandBack& hand_back, double begins) {
-  const auto recovered = [&](const StagedBody& one, const Path* leader) {
+  const auto recovered = [&](const StagedBody& one, const Path* leader, const Path* above) {
     const Vec3 center = state.world.mass(one.id).center;
     const Motion beginning = moved_on(state.world.motion(one.id), center, begins - state.time);
-    return one.path.recovered(begins, hand_back, beginning, one.released_at, leader);
+    return one.path.recovered(begins, hand_back, beginning, one.released_at, leader, above);
   };
+  const StagedBody* const next = joined_above(state, body);
+  const Path* const above = next && on_its_way(state, *next) ? &next->path : nullptr;
+  if (hand_back.anchor == HandBack::Anchor::keep || !next) return recovered(body, nullptr, above);
   const StagedBody& top = top_of_figure(state, body);
-  if (hand_back.anchor == HandBack::Anchor::keep || &top == &body) return recovered(body, nullptr);
-  const Path leader = state.world.owner(top.id) == Owner::free ? recovered(top, nullptr) : top.path;
-  return recovered(body, &leader);
+  const Path leader = state.world.owner(top.id) == Owner::free ? recovered(top, nullptr, nullptr) : top.path;
+  return recovered(body, &leader, above);
+}
+
+/// What came back below a body at `time`, before it came back itself, settles along with it after all.
+void settle_below(StageState& state, const StagedBody& body, double time) {
+  for (const NodeId node : state.below(body.node, [](NodeId) { return true; })) {
+    StagedBody* const one = state.body(node);
+    if (!one || !one->path.starts_settling(time) || !on_its_way(state, *one)) continue;
+    const StagedBody* const above = joined_above(state, *one);
+    if (above && on_its_way(state, *above) && above->path.starts_settling(time))
+      one->path = one->path.along(above->path);
+  }
 }
 
 /// The nodes without bodies below a body that changes from one path to another at `time`, each from where it is shown.
@@ -213,6 +234,7 @@ bool change_owner(StageState& state, std::size_t index, const OwnerChange& chang
       body.size = size.any ? std::make_shared<const SizeOffset>(size) : nullptr;
     }
     body.path = path;
+    if (follows) settle_below(state, body, begins);
     if (handoff.to == Owner::keyed) {
       world.set_motion(body.id, bearable(state, body, rigid(body.path.at(state.time)), "its path"));
       handoff.after = about_center(rigid(body.path.at(instant)), center);

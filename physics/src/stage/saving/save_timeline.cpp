@@ -15,7 +15,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-constexpr saving::Envelope stage_envelope{"stage", 8};
+constexpr saving::Envelope stage_envelope{"stage", 9};
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("a saved stage has a bad " + what);
@@ -79,8 +79,10 @@ void check_bodies(const StageState& state) {
     ++here;
     require(state.world.contains(body.id), "world: a body is not in it");
     require_unit(body.shown.motion.pose.rotation);
-    const ClockOverride& clock = body.path.clock();
-    require(clock.clip == ClockOverride::every_clip || clock.clip < clips, "clock: there is no such clip");
+    for (const Path* path = &body.path; path; path = path->above()) {
+      const std::size_t clip = path->clock().clip;
+      require(clip == ClockOverride::every_clip || clip < clips, "clock: there is no such clip");
+    }
     if (const auto& coming = body.coming)
       require(coming->rule < state.rules.size() && coming->place < state.rules[coming->rule]->then.size(),
               "change to come: there is no such rule");

@@ -338,6 +338,24 @@ struct PathFields {
   static void of_path(T& path, const Visit& visit) {
     visit(path.since_, path.clock_, path.anchor_);
     of_offset(path.settle_, visit);
+    bool has_above = path.above_ != nullptr;
+    visit(has_above);
+    if constexpr (!std::is_const_v<T>)
+      if (!has_above) path.above_ = nullptr;
+    if (!has_above) return;
+    std::size_t node = path.above_ ? path.above_->node_ : 0;
+    visit.places(node);
+    if constexpr (std::is_const_v<T>) {
+      of_path(*path.above_, visit);
+    } else {
+      const Hierarchy& nodes = path.animation_->nodes();
+      std::size_t up = nodes[path.node_].parent;
+      while (up != no_node && up != node) up = nodes[up].parent;
+      if (up == no_node) throw std::invalid_argument("a saved stage has a bad path: it settles along one not above it");
+      Path above(path.animation_, node);
+      of_path(above, visit);
+      path.above_ = std::make_shared<const Path>(std::move(above));
+    }
   }
 };
 

@@ -28,6 +28,11 @@ class SettleOffset {
   /// `path`, the path's motion at `time`, with the offset at that time applied.
   [[nodiscard]] Motion apply(double time, const Motion& path) const noexcept;
 
+  [[nodiscard]] const Settle& settle() const noexcept { return settle_; }
+
+  /// Whether nothing is left of it: exactly nothing, or of a spring, after 60 half-lives, less than rounding.
+  [[nodiscard]] bool over(double time) const noexcept;
+
  private:
   friend struct saving::PathFields;
   Settle settle_ = {};
