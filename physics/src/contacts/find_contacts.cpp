@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "collision/collide_pairs.h"
 #include "collision/passage.h"
@@ -10,6 +11,7 @@
 #include "contacts/combine.h"
 #include "contacts/followers.h"
 #include "contacts/found_manifold.h"
+#include "contacts/seams.h"
 #include "state/prefetch.h"
 #include "state/world_data.h"
 
@@ -281,6 +283,7 @@ void World::Implementation::find_contacts_of_parts(const contacts::PairInContact
     const collision::Passage way = way_of(way_b, parts_b, k);
     ways_b.push_back({way, box_of(way)});
   }
+  const std::size_t before = part.contacts.size();
   std::uint32_t next = known.first;
   const std::uint32_t end = known.first + known.count;
   const std::span<const std::uint32_t> sorted = memories.sorted();
@@ -297,6 +300,41 @@ void World::Implementation::find_contacts_of_parts(const contacts::PairInContact
       if (next < end && memories.parts(memories[sorted[next]]) == std::pair(i, k)) one.memory = sorted[next];
       find_contact(one, its_a, ways_b[k].way, dt, false, part);
     }
+  }
+  // What freely falls into the parts that it lies on would meet edges that it passes over.
+  std::vector<contacts::ContactHead> passed = contacts::drop_contacts_of_seams(part.contacts, before, way_a, way_b, 0);
+  if (passed.empty() && !contacts::LyingBody::matters(part.contacts.all().subspan(before))) {
+    contacts::drop_contacts_of_seams(part.contacts, before, way_a, way_b, dt);
+    return;
+  }
+  const contacts::LyingBody lying(part.contacts.all().subspan(before), way_a, way_b);
+  const bool b_moves = !way_b.body->immovable();
+  const auto find_again = [&](contacts::ContactConstraint& contact, const contacts::ContactHead& old, bool behind) {
+    contact = {};
+    static_cast<contacts::PairInContact&>(contact) = old;
+    const collision::Passage its_a = way_of(lying.way_a(), parts_a, old.part_a),
+                             its_b = way_of(lying.way_b(), parts_b, old.part_b);
+    if (behind)
+      contacts::find_behind_seam(contact, its_a, its_b, old.impact_time, dt);
+    else if (!find_manifold(contact, *its_a.body, *its_b.body, its_a, its_b, dt, nullptr))
+      contact.count = 0;
+    if (contact.count > 0 && contact.impact_time > 0 &&
+        contacts::in_known_plane(contact, part.contacts.all().subspan(before), b_moves ? way_a : way_b, b_moves,
+                                 contacts::near_enough_of(way_a, way_b)))
+      contact.count = 0;
+    if (contact.count > 0)
+      finish_contact(contact, old.memory != state::ContactMemories::nowhere ? &memories[old.memory] : nullptr, dt);
+  };
+  for (contacts::ContactConstraint& contact : part.contacts.all().subspan(before))
+    if (contact.impact_time > 0) find_again(contact, contacts::ContactHead(contact), false);
+  for (int i = 0; i < 2; ++i) {
+    for (const contacts::ContactHead& old : passed) find_again(part.contacts.add(), old, true);
+    contacts::drop_empty(part.contacts, before);
+    const auto its_own = part.contacts.all().subspan(before);
+    std::sort(its_own.begin(), its_own.end(), [](const auto& a, const auto& b) {
+      return std::pair(a.part_a, a.part_b) < std::pair(b.part_a, b.part_b);
+    });
+    passed = contacts::drop_contacts_of_seams(part.contacts, before, way_a, way_b, dt);
   }
 }
 

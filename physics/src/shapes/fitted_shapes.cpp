@@ -62,7 +62,7 @@ std::vector<std::size_t> outermost(std::span<const Vec3> points) {
 
 /// The point for which `measure` is greatest; of equal ones the first.
 template <class Measure>
-std::size_t greatest(std::span<const Vec3> points, const Measure& measure) {
+std::size_t index_of_greatest(std::span<const Vec3> points, const Measure& measure) {
   const auto found = std::ranges::max_element(points, {}, measure);
   return static_cast<std::size_t>(found - points.begin());
 }
@@ -71,13 +71,15 @@ std::size_t greatest(std::span<const Vec3> points, const Measure& measure) {
 /// both, and the one farthest from the plane of these.
 std::vector<std::size_t> widest(std::span<const Vec3> points) {
   const auto from = [&](const Vec3& place) {
-    return greatest(points, [&](const Vec3& point) { return (point - place).norm(); });
+    return index_of_greatest(points, [&](const Vec3& point) { return (point - place).norm(); });
   };
   const std::size_t a = from(points.front()), b = from(points[a]);
   const Vec3 along = points[b] - points[a];
-  const std::size_t c = greatest(points, [&](const Vec3& point) { return along.cross(point - points[a]).norm(); });
+  const std::size_t c =
+      index_of_greatest(points, [&](const Vec3& point) { return along.cross(point - points[a]).norm(); });
   const Vec3 normal = along.cross(points[c] - points[a]);
-  const std::size_t d = greatest(points, [&](const Vec3& point) { return std::abs(normal.dot(point - points[a])); });
+  const std::size_t d =
+      index_of_greatest(points, [&](const Vec3& point) { return std::abs(normal.dot(point - points[a])); });
   return {a, b, c, d};
 }
 
