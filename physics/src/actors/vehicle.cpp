@@ -182,7 +182,8 @@ void Vehicle::press_at_end(const World& world, std::vector<Stand>& stands, doubl
     return from == to ? own + vehicles::give_of(world, stands[to].ground, line_of(to), line_of(to)) : own;
   };
   const auto firmness = [&](std::size_t i) { return settings_.wheels[i].damping + dt * settings_.wheels[i].stiffness; };
-  std::vector<std::size_t> pressing;
+  thread_local std::vector<std::size_t> pressing;
+  pressing.clear();
   for (std::size_t i = 0; i < stands.size(); ++i)
     if (stands[i].touches) pressing.push_back(i);
   // A force that is held for the step pushes as if the strut were damped by k dt / 2 less than it is.
@@ -193,8 +194,10 @@ void Vehicle::press_at_end(const World& world, std::vector<Stand>& stands, doubl
   if (std::ranges::none_of(pressing, gains)) return;
   const bool falls = !world.is_fixed(settings_.chassis) && world.owner(settings_.chassis) != Owner::keyed;
   while (!pressing.empty()) {
-    forces::Elimination effects;
-    std::vector<double> loads;
+    thread_local forces::Elimination effects;
+    thread_local std::vector<double> loads;
+    effects.entries.clear();
+    loads.clear();
     for (const std::size_t i : pressing) {
       const WheelSettings& its = settings_.wheels[i];
       const double fallen = falls ? dt * settings_.gravity.dot(stands[i].normal) : 0;
@@ -266,11 +269,12 @@ Vec3 Vehicle::grip(const Stand& stand, double share, double borne, std::size_t w
 }
 
 void Vehicle::act(World& world, double dt) {
-  vehicles::require(dt > 0 && dt <= vehicles::most,
-                    "the length of a step must be positive and finite, but is " + number_text(dt) + " s");
+  // Put together only for those who read it: it takes memory.
+  if (!(dt > 0 && dt <= vehicles::most))
+    throw std::invalid_argument("the length of a step must be positive and finite, but is " + number_text(dt) + " s");
   const Motion chassis = world.motion(settings_.chassis);
-  std::vector<Stand> stands;
-  stands.reserve(readings_.size());
+  thread_local std::vector<Stand> stands;
+  stands.clear();
   for (std::size_t i = 0; i < readings_.size(); ++i) stands.push_back(find_stand(world, chassis, i));
   press_at_end(world, stands, dt);
   double loads = 0;

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <functional>
+#include <vector>
 
 #include "queries/body_scene.h"
 #include "state/world_data.h"
@@ -35,7 +37,8 @@ void World::Implementation::sense() {
       if (endless && is_scenery(body.shape().solid)) return false;
       return sensor.may_meet(body) && !ignored.contains(index, other);
     };
-    for (const std::uint32_t other : here.overlapping(sensor.shape(), sensor.motion.pose, counts))
+    here.find_overlapping(sensor.shape(), sensor.motion.pose, std::cref(counts), sensed);
+    for (const std::uint32_t other : sensed)
       next_overlaps.push_back({{index, sensor.generation}, {other, bodies[other].generation}, false});
   }
   // Both are sorted by index; a body that has taken the place of another counts as another.

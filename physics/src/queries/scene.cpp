@@ -113,6 +113,13 @@ std::optional<Scene::ItemShapeHit> Scene::first_on_way(const Shape& moving, cons
 
 std::vector<std::uint32_t> Scene::overlapping(const Shape& shape, const Pose& pose, const Accept& accept) const {
   std::vector<std::uint32_t> found;
+  find_overlapping(shape, pose, accept, found);
+  return found;
+}
+
+void Scene::find_overlapping(const Shape& shape, const Pose& pose, const Accept& accept,
+                             std::vector<std::uint32_t>& found) const {
+  found.clear();
   const auto see = [&](std::uint32_t item) {
     if (accept(item) && !(closest_between(*items_[item].shape, items_[item].pose, shape, pose).gap > 0))
       found.push_back(item);
@@ -122,7 +129,6 @@ std::vector<std::uint32_t> Scene::overlapping(const Shape& shape, const Pose& po
   const bool endless = std::holds_alternative<Plane>(shape.solid);
   tree_.visit(endless ? Bounds{-end, end} : with_room(bounds(shape, pose), 0), see);
   std::ranges::sort(found);
-  return found;
 }
 
 std::optional<Scene::NearestItem> Scene::nearest(const Vec3& point, double within, const Accept& accept) const {

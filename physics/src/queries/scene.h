@@ -45,6 +45,9 @@ class Scene {
                                                          const Vec3& displacement, const Accept& accept) const;
   [[nodiscard]] std::vector<std::uint32_t> overlapping(const Shape& shape, const Pose& pose,
                                                        const Accept& accept) const;
+  /// The same, in place of what `found` held.
+  void find_overlapping(const Shape& shape, const Pose& pose, const Accept& accept,
+                        std::vector<std::uint32_t>& found) const;
   [[nodiscard]] std::optional<NearestItem> nearest(const Vec3& point, double within, const Accept& accept) const;
 
   [[nodiscard]] const Item& operator[](std::uint32_t item) const { return items_[item]; }

@@ -202,8 +202,10 @@ void World::Implementation::solve_islands(double dt) {
   islands_by_size.resize(all.size());
   std::iota(islands_by_size.begin(), islands_by_size.end(), std::uint32_t{0});
   if (work.threads() > 1)
-    std::stable_sort(islands_by_size.begin(), islands_by_size.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return size_of(a) > size_of(b); });
+    std::sort(islands_by_size.begin(), islands_by_size.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const std::size_t of_a = size_of(a), of_b = size_of(b);
+      return of_a != of_b ? of_a > of_b : a < b;
+    });
   const bool led =
       std::any_of(lingering.begin(), lingering.end(), [this](std::uint32_t i) { return bodies[i].displaces(); });
   const auto tame = [&](const islands::IslandContents& contents) {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "actors/soft/blowing.h"
 #include "actors/soft/meetings/apart.h"
@@ -56,20 +59,60 @@ void tear_one(SoftBody& body, double time) {
   body.tears.push_back({worst, time, 0.5 * (body.positions[edge.a] + body.positions[edge.b])});
 }
 
+/// What all soft bodies share in a step.
+struct Surroundings {
+  std::vector<state::Body>& bodies;
+  Partners& partners;
+  const WorldSettings& settings;
+  const std::vector<Blowing>& winds;
+  double began;  ///< start time of the step, s
+  double dt;
+};
+
+/// Of one soft body: kept from step to step, so that a settled one takes no memory.
+struct CourseMemory {
+  std::vector<Near> near;
+  std::vector<Vec3> starts, start_rates;  ///< of the pinned nodes
+  std::vector<Vec3> places;               ///< of all nodes, before a sub-step
+  std::vector<Held> held;
+  std::vector<NodeContact> contacts;
+  std::vector<Vec3> first_places, first_velocities;  ///< before a sub-step that may be repeated
+  std::vector<Gift> gifts;                           ///< in it, by partner
+  std::vector<Gift> gifts_before, gifts_after;
+  KeptChains chains;
+};
+
 /// One soft body in a step.
 class Course {
  public:
-  /// @param began  start time of the step, s
-  Course(SoftBody& body, std::vector<state::Body>& bodies, Partners& partners, const WorldSettings& settings,
-         const std::vector<Blowing>& winds, double began, double dt)
-      : body_(body), bodies_(bodies), partners_(partners), settings_(settings), winds_(winds), began_(began), dt_(dt) {
+  Course(SoftBody& body, const Surroundings& around, CourseMemory& memory)
+      : body_(body),
+        bodies_(around.bodies),
+        partners_(around.partners),
+        settings_(around.settings),
+        winds_(around.winds),
+        began_(around.began),
+        dt_(around.dt),
+        memory_(memory),
+        near_(memory.near),
+        starts_(memory.starts),
+        start_rates_(memory.start_rates),
+        places_(memory.places),
+        held_(memory.held),
+        contacts_(memory.contacts),
+        gifts_(memory.gifts) {
     body.tears.clear();
-    near_ = find_near(body, bodies, partners, settings, dt);
+    find_near(body, bodies_, partners_, settings_, dt_, near_);
+    starts_.clear();
+    start_rates_.clear();
+    held_.clear();
+    contacts_.clear();
+    gifts_.clear();
     for (PinState& state : body.pins) {
       state.force = Vec3(0, 0, 0);
       starts_.push_back(body.positions[state.pin.node]);
       start_rates_.push_back(body.velocities[state.pin.node]);
-      if (state.pin.body != BodyId{}) static_cast<void>(partners.number_of(state.pin.body.index));
+      if (state.pin.body != BodyId{}) static_cast<void>(partners_.number_of(state.pin.body.index));
     }
   }
 
@@ -79,7 +122,7 @@ class Course {
     blow(body_, winds_, h);
     find_contacts(body_, near_, bodies_, partners_, settings_.gravity, settings_.push_out_speed, h, contacts_);
     was_ = held_.empty() ? mean_velocity(body_) : Vec3(0, 0, 0);
-    SubStep step{body_, partners_, contacts_, held_, settings_.gravity, h, backward};
+    SubStep step{body_, partners_, contacts_, held_, memory_.chains, settings_.gravity, h, backward};
     const bool between = std::ranges::any_of(near_, &Near::slips);
     if (thick() || between) places_ = body_.positions;
     (body_.made->solver == SoftSolver::positions ? solve_positions : solve_springs)(step);
@@ -89,8 +132,8 @@ class Course {
 
   /// The same, so that it can be repeated.
   void go_first(double time, double h, bool backward) {
-    first_places_ = body_.positions;
-    first_velocities_ = body_.velocities;
+    memory_.first_places = body_.positions;
+    memory_.first_velocities = body_.velocities;
     give(time, h, backward);
     for (std::uint32_t p = 0; p < gifts_.size(); ++p)
       if (gives_to(p)) ++partners_[p].givers;
@@ -98,10 +141,11 @@ class Course {
   /// Repeats it with what others have given meanwhile. @return how much of what it gives has changed, and how much that
   /// is, J s^2
   std::pair<double, double> go_again(double time, double h, bool backward) {
-    body_.positions = first_places_;
-    body_.velocities = first_velocities_;
+    body_.positions = memory_.first_places;
+    body_.velocities = memory_.first_velocities;
     partners_.take_back(gifts_);
-    const std::vector<Gift> before = std::move(gifts_);
+    std::vector<Gift>& before = memory_.gifts_before;
+    std::swap(before, gifts_);
     give(time, h, backward);
     double changed = 0, all = 0;
     for (std::uint32_t p = 0; p < gifts_.size(); ++p) {
@@ -126,6 +170,7 @@ class Course {
       if (partners_[p].givers > 1 && gives_to(p)) joined.join(*first, p);
   }
 
+  [[nodiscard]] const SoftSettings& made() const { return *body_.made; }
   [[nodiscard]] bool thick() const { return body_.made->thickness > 0; }
   [[nodiscard]] Thick as_thick() { return {&body_, &places_, held_}; }
 
@@ -164,15 +209,16 @@ class Course {
 
  private:
   void give(double time, double h, bool backward) {
-    gifts_ = partners_.given();
+    partners_.tell_given(gifts_);
     go(time, h, backward);
-    std::vector<Gift> all = partners_.given();
+    std::vector<Gift>& all = memory_.gifts_after;
+    partners_.tell_given(all);
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i].moved -= gifts_[i].moved;
       all[i].turned -= gifts_[i].turned;
       all[i].taken -= gifts_[i].taken;
     }
-    gifts_ = std::move(all);
+    std::swap(gifts_, all);
   }
   [[nodiscard]] bool gives_to(std::uint32_t partner) const {
     return gifts_[partner].moved != Vec3::Zero() || gifts_[partner].turned != Vec3::Zero();
@@ -216,35 +262,54 @@ class Course {
   const WorldSettings& settings_;
   const std::vector<Blowing>& winds_;
   double began_, dt_;
-  std::vector<Near> near_;
-  std::vector<Vec3> starts_, start_rates_;  ///< of the pinned nodes
-  std::vector<Vec3> places_;                ///< of all nodes, before a sub-step
-  std::vector<Held> held_;
-  std::vector<NodeContact> contacts_;
-  std::vector<Vec3> first_places_, first_velocities_;  ///< before a sub-step that may be repeated
-  std::vector<Gift> gifts_;                            ///< in it, by partner
-  Vec3 was_{0, 0, 0};                                  ///< mean velocity before the sub-step, if nothing holds it
-  bool pushed_ = false;                                ///< a contact between its nodes pushed it in the sub-step
+  CourseMemory& memory_;
+  std::vector<Near>& near_;
+  std::vector<Vec3>&starts_, &start_rates_, &places_;
+  std::vector<Held>& held_;
+  std::vector<NodeContact>& contacts_;
+  std::vector<Gift>& gifts_;
+  Vec3 was_{0, 0, 0};    ///< mean velocity before the sub-step, if nothing holds it
+  bool pushed_ = false;  ///< a contact between its nodes pushed it in the sub-step
+};
+
+/// Kept from step to step: a settled one takes no memory.
+struct Memory {
+  Partners partners;
+  std::vector<Blowing> winds;
+  std::vector<std::unique_ptr<CourseMemory>> of_courses;
+  std::vector<Course> courses;
+  std::vector<std::size_t> among;  ///< indices of those that may meet another one
+  std::vector<Thick> thick;
+  std::vector<char> pushed;
+  islands::Islands joined;
+  std::vector<std::vector<Course*>> sharing;
+
+  [[nodiscard]] CourseMemory& of_course(std::size_t index) {
+    while (of_courses.size() <= index) of_courses.push_back(std::make_unique<CourseMemory>());
+    return *of_courses[index];
+  }
 };
 
 /// Those that give something to the same bodies, directly or through others, each in their order.
-std::vector<std::vector<Course*>> sharing(std::vector<Course>& courses, const Partners& partners) {
-  islands::Islands joined;
-  joined.reset(partners.size());
-  for (const Course& course : courses) course.join_shared(joined);
-  std::vector<std::vector<Course*>> by_first(partners.size());
-  for (Course& course : courses)
+std::span<const std::vector<Course*>> find_sharing(Memory& memory) {
+  const std::size_t count = memory.partners.size();
+  memory.joined.reset(count);
+  for (const Course& course : memory.courses) course.join_shared(memory.joined);
+  if (memory.sharing.size() < count) memory.sharing.resize(count);
+  for (std::vector<Course*>& some : memory.sharing) some.clear();
+  for (Course& course : memory.courses)
     if (const std::optional<std::uint32_t> first = course.first_shared())
-      by_first[joined.of(*first)].push_back(&course);
-  return by_first;
+      memory.sharing[memory.joined.of(*first)].push_back(&course);
+  return std::span(memory.sharing).first(count);
 }
 
 /// A sub-step of all soft bodies. Those that hold the same body are solved in turn until they agree on where it goes:
 /// what the first gives it does not account for the load of the last.
-void go_together(std::vector<Course>& courses, const Partners& partners, double time, double h, bool backward) {
+void go_together(Memory& memory, double time, double h, bool backward) {
+  std::vector<Course>& courses = memory.courses;
   if (courses.size() == 1) return courses.front().go(time, h, backward);
   for (Course& course : courses) course.go_first(time, h, backward);
-  for (const std::vector<Course*>& some : sharing(courses, partners))
+  for (const std::vector<Course*>& some : find_sharing(memory))
     for (int round = 1; round < most_rounds; ++round) {
       double changed = 0, all = 0;
       for (Course* const course : some) {
@@ -256,15 +321,13 @@ void go_together(std::vector<Course>& courses, const Partners& partners, double 
     }
 }
 
-/// Indices of the soft bodies that may meet another one.
-std::vector<std::size_t> meeting_each_other(const std::vector<const SoftBody*>& bodies) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (std::ranges::any_of(bodies, [&](const SoftBody* other) {
-          return other != bodies[i] && meet_each_other(*bodies[i]->made, *other->made);
+void find_meeting_each_other(const std::vector<Course>& courses, std::vector<std::size_t>& found) {
+  found.clear();
+  for (std::size_t i = 0; i < courses.size(); ++i)
+    if (std::ranges::any_of(courses, [&](const Course& other) {
+          return &other != &courses[i] && meet_each_other(courses[i].made(), other.made());
         }))
       found.push_back(i);
-  return found;
 }
 
 }  // namespace
@@ -287,27 +350,30 @@ void World::Implementation::advance_softs(double dt, double whole) {
   };
   const double count = count_of(dt), h = dt / count, pace = whole / count_of(whole);
   const int sub_steps = settings.plane == WorldPlane::none ? 1 : flat.own().sub_steps();
-  soft::Partners partners(bodies, soft_starts, loads, settings, sub_steps, dt);
-  const std::vector<soft::Blowing> winds = soft::winds_at(forces, time);
-  std::vector<soft::Course> courses;
-  std::vector<const soft::SoftBody*> there;
+  thread_local soft::Memory memory;
+  soft::Partners& partners = memory.partners;
+  partners.begin(bodies, soft_starts, loads, settings, sub_steps, dt);
+  soft::find_winds(forces, time, memory.winds);
+  const soft::Surroundings around{bodies, partners, settings, memory.winds, time, dt};
+  std::vector<soft::Course>& courses = memory.courses;
+  courses.clear();
   for (soft::SoftBody& body : softs)
     if (body.alive) {
       body.pace = pace;
-      courses.emplace_back(body, bodies, partners, settings, winds, time, dt);
-      there.push_back(&body);
+      courses.emplace_back(body, around, memory.of_course(courses.size()));
     }
-  const std::vector<std::size_t> among = soft::meeting_each_other(there);
-  std::vector<soft::Thick> thick;
-  thick.reserve(among.size());
+  const std::vector<std::size_t>& among = memory.among;
+  soft::find_meeting_each_other(courses, memory.among);
+  std::vector<soft::Thick>& thick = memory.thick;
   for (double i = 1; i <= count; ++i) {
     const double since = i < count ? i * h : dt;
     partners.go_to(since, h);
     const bool backward = static_cast<int>(i) % 2 == 0;
-    soft::go_together(courses, partners, since, h, backward);
+    soft::go_together(memory, since, h, backward);
     thick.clear();
     for (const std::size_t member : among) thick.push_back(courses[member].as_thick());
-    std::vector<char> pushed(courses.size(), 0);
+    std::vector<char>& pushed = memory.pushed;
+    pushed.assign(courses.size(), 0);
     if (!thick.empty()) {
       const std::vector<char> its =
           soft::keep_apart_from_each_other(thick, partners, h, backward, settings.push_out_speed);
@@ -318,6 +384,7 @@ void World::Implementation::advance_softs(double dt, double whole) {
   }
   partners.finish();
   for (soft::Course& course : courses) course.finish();
+  courses.clear();
 }
 
 void World::Implementation::check_softs() const {

@@ -5,24 +5,25 @@
 
 namespace tweenfall::soft {
 
-std::vector<Blowing> winds_at(const std::vector<forces::NumberedForce>& forces, double time) {
-  std::vector<Blowing> winds;
+void find_winds(const std::vector<forces::NumberedForce>& forces, double time, std::vector<Blowing>& winds) {
+  winds.clear();
   for (const forces::NumberedForce& force : forces) {
     const auto* const wind = std::get_if<Wind>(&force.force);
     if (!wind || !force.settings.bodies.empty()) continue;
     winds.push_back({wind->velocity, forces::not_negative(force.settings.strength.at(time)) * wind->density});
   }
-  return winds;
 }
 
 void blow(SoftBody& body, const std::vector<Blowing>& winds, double h) {
   const SoftSettings& made = *body.made;
   if (!(made.air_drag > 0) || winds.empty()) return;
   // Each face has its share of the mass of its corners.
-  std::vector<int> faces(body.positions.size(), 0);
+  thread_local std::vector<int> faces;
+  faces.assign(body.positions.size(), 0);
   for (std::size_t i = 0; i < made.triangles.size(); ++i)
     for (const std::uint32_t corner : made.triangles[i]) faces[corner] += body.gone.triangles[i] != 0 ? 0 : 1;
-  std::vector<Vec3> given(body.positions.size(), Vec3(0, 0, 0));  // N s
+  thread_local std::vector<Vec3> given;  // N s
+  given.assign(body.positions.size(), Vec3(0, 0, 0));
   for (std::size_t i = 0; i < made.triangles.size(); ++i) {
     if (body.gone.triangles[i] != 0) continue;
     const auto& [a, b, c] = made.triangles[i];

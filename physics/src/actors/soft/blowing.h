@@ -13,8 +13,8 @@ struct Blowing {
   double density = 0;      ///< of the air, times the strength of the wind, kg/m^3
 };
 
-/// The winds that name no bodies, at a time.
-[[nodiscard]] std::vector<Blowing> winds_at(const std::vector<forces::NumberedForce>& forces, double time);
+/// The winds that name no bodies, at a time, in place of what `winds` held.
+void find_winds(const std::vector<forces::NumberedForce>& forces, double time, std::vector<Blowing>& winds);
 
 /// Adds to the nodes of each face the velocity that winds give it in h seconds: along the face's normal, and never
 /// beyond that of the wind.

@@ -80,6 +80,15 @@ std::vector<Chain> chains_of(const SoftBody& body) {
   return chains;
 }
 
+const std::vector<Chain>& KeptChains::of(const SoftBody& body) {
+  if (made_ != body.made || torn_ != body.torn) {
+    chains_ = chains_of(body);
+    made_ = body.made;
+    torn_ = body.torn;
+  }
+  return chains_;
+}
+
 void solve_three_diagonals(std::vector<double>& diagonal, const std::vector<double>& beside,
                            std::vector<double>& values) {
   const std::size_t count = values.size();

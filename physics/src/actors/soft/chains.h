@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "actors/soft/soft_state.h"
@@ -16,6 +17,17 @@ struct Chain {
 /// All edges that are not torn, in chains from end to end; a ring is opened at an edge, which is a chain of its own.
 /// Empty if a node has more than two edges.
 [[nodiscard]] std::vector<Chain> chains_of(const SoftBody& body);
+
+/// The chains of a soft body, kept until it tears.
+class KeptChains {
+ public:
+  [[nodiscard]] const std::vector<Chain>& of(const SoftBody& body);
+
+ private:
+  std::shared_ptr<const SoftSettings> made_;  ///< of the body that they are of
+  std::vector<char> torn_;
+  std::vector<Chain> chains_;
+};
 
 /// Solves a symmetric, semidefinite tridiagonal system: values become its solution.
 /// @param diagonal  becomes its pivots @param beside  the entry of each with the one before it; the first is not read

@@ -26,15 +26,55 @@ namespace {
 /// way in which one edge could be corrected alone.
 constexpr double yielding = 1e-7;
 
+/// A node that something hangs on.
+struct Load {
+  Held* held = nullptr;
+  Mat3 give = Mat3::Zero();  ///< inverse mass of both together, 1/kg
+};
+
+/// Kept from one sub-step to the next, so that none takes memory.
+struct PositionsMemory {
+  std::vector<Vec3> p;         ///< at the end
+  std::vector<Vec3> free;      ///< at the end, if only gravity acted
+  std::vector<Vec3> pull;      ///< by constraints, kg m
+  std::vector<double> weight;  ///< inverse masses; 0 of led nodes
+  std::vector<double> edge_multipliers, solid_multipliers, enclosure_multipliers;
+  std::vector<double> solid_stiffness, enclosure_stiffness;  ///< divided by the volume, as they act, Pa/m^3
+  std::vector<Vec3> bend_multipliers;
+  std::vector<Load> loads;  ///< by node; empty if nothing hangs on any
+  std::vector<Vec3> normals;
+  std::vector<double> diagonal, beside, changes;
+  std::vector<Vec3> gradients;
+};
+
 class Positions {
  public:
-  explicit Positions(SubStep& step) : step_(step), made_(*step.body.made), x_(step.body.positions) {}
+  Positions(SubStep& step, PositionsMemory& memory)
+      : step_(step),
+        made_(*step.body.made),
+        chains_(step.chains.of(step.body)),
+        x_(step.body.positions),
+        p_(memory.p),
+        free_(memory.free),
+        pull_(memory.pull),
+        weight_(memory.weight),
+        edge_multipliers_(memory.edge_multipliers),
+        solid_multipliers_(memory.solid_multipliers),
+        enclosure_multipliers_(memory.enclosure_multipliers),
+        solid_stiffness_(memory.solid_stiffness),
+        enclosure_stiffness_(memory.enclosure_stiffness),
+        bend_multipliers_(memory.bend_multipliers),
+        loads_(memory.loads),
+        normals_(memory.normals),
+        diagonal_(memory.diagonal),
+        beside_(memory.beside),
+        changes_(memory.changes),
+        gradients_(memory.gradients) {}
 
   void solve() {
     predict();
     // There and back: one direction alone takes too much energy from stiff parts where many edges meet, and speeds them
     // up.
-    chains_ = chains_of(step_.body);
     find_loads();
     for (int i = 0; i < *made_.iterations; ++i) {
       pass(step_.backward);
@@ -78,8 +118,10 @@ class Positions {
     bend_multipliers_.assign(made_.bends.size(), Vec3(0, 0, 0));
     solid_multipliers_.assign(made_.tetrahedra.size(), 0);
     enclosure_multipliers_.assign(made_.enclosures.size(), 0);
+    solid_stiffness_.clear();
     for (const SoftTetrahedron& solid : made_.tetrahedra)
       solid_stiffness_.push_back(resolved_stiffness(made_, solid, step_.body.pace));
+    enclosure_stiffness_.clear();
     for (const SoftEnclosure& enclosure : made_.enclosures)
       enclosure_stiffness_.push_back(resolved_stiffness(made_, enclosure, step_.body.pace));
   }
@@ -364,33 +406,27 @@ class Positions {
     partner.give(rub * along, contact.arm, step_.h);
   }
 
-  /// A node that something hangs on.
-  struct Load {
-    Held* held = nullptr;
-    Mat3 give = Mat3::Zero();  ///< inverse mass of both together, 1/kg
-  };
-
   SubStep& step_;
   const SoftSettings& made_;
-  std::vector<Vec3>& x_;        ///< at the start
-  std::vector<Vec3> p_;         ///< at the end
-  std::vector<Vec3> free_;      ///< at the end, if only gravity acted
-  std::vector<Vec3> pull_;      ///< by constraints, kg m
-  std::vector<double> weight_;  ///< inverse masses; 0 of led nodes
-  std::vector<double> edge_multipliers_, solid_multipliers_, enclosure_multipliers_;
-  std::vector<double> solid_stiffness_, enclosure_stiffness_;  ///< divided by the volume, as they act, Pa/m^3
-  std::vector<Vec3> bend_multipliers_;
-  std::vector<Chain> chains_;
-  std::vector<Load> loads_;  ///< by node; empty if nothing hangs on any
-  std::vector<Vec3> normals_;
-  std::vector<double> diagonal_, beside_, changes_;
-  std::vector<Vec3> gradients_;
+  const std::vector<Chain>& chains_;
+  std::vector<Vec3>& x_;  ///< at the start
+  // Memory that is kept
+  std::vector<Vec3>&p_, &free_, &pull_;
+  std::vector<double>& weight_;
+  std::vector<double>&edge_multipliers_, &solid_multipliers_, &enclosure_multipliers_;
+  std::vector<double>&solid_stiffness_, &enclosure_stiffness_;
+  std::vector<Vec3>& bend_multipliers_;
+  std::vector<Load>& loads_;
+  std::vector<Vec3>& normals_;
+  std::vector<double>&diagonal_, &beside_, &changes_;
+  std::vector<Vec3>& gradients_;
 };
 
 }  // namespace
 
 void solve_positions(SubStep& step) {
-  Positions(step).solve();
+  thread_local PositionsMemory memory;
+  Positions(step, memory).solve();
 }
 
 }  // namespace tweenfall::soft

@@ -29,7 +29,8 @@ double give(const SoftSettings& made, const SoftTetrahedron& solid) {
          by_c.squaredNorm() / made.masses[n[2]] + by_d.squaredNorm() / made.masses[n[3]];
 }
 double give(const SoftSettings& made, const SoftEnclosure& enclosure) {
-  std::vector<Vec3> gradients(made.positions.size(), Vec3(0, 0, 0));
+  thread_local std::vector<Vec3> gradients;
+  gradients.assign(made.positions.size(), Vec3(0, 0, 0));
   const Vec3 origin = made.positions[enclosure.triangles[0][0]];
   for (const auto& triangle : enclosure.triangles) {
     const auto at = [&](std::size_t corner) -> Vec3 { return made.positions[triangle[corner % 3]] - origin; };

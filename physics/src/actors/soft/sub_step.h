@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "actors/soft/chains.h"
 #include "actors/soft/meetings/partners.h"
 #include "actors/soft/soft_state.h"
 
@@ -37,6 +38,7 @@ struct SubStep {
   Partners& partners;
   std::span<NodeContact> contacts;
   std::span<Held> held;
+  KeptChains& chains;
   Vec3 gravity;
   double h = 0;           ///< s
   bool backward = false;  ///< constraints in the order from last to first

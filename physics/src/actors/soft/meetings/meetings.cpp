@@ -31,11 +31,11 @@ Manifold Near::touch(const state::Body& rigid, const Pose& node, const Vec3& bal
                             {ball, Mat3::Identity()}, reach, reach);
 }
 
-std::vector<Near> find_near(const SoftBody& body, const std::vector<state::Body>& bodies, Partners& partners,
-                            const WorldSettings& settings, double dt) {
+void find_near(const SoftBody& body, const std::vector<state::Body>& bodies, Partners& partners,
+               const WorldSettings& settings, double dt, std::vector<Near>& near) {
   const SoftSettings& made = *body.made;
-  std::vector<Near> near;
-  if (!made.collide) return near;
+  near.clear();
+  if (!made.collide) return;
   Bounds all{body.positions[0], body.positions[0]};
   double fastest = 0;
   for (std::size_t i = 0; i < body.positions.size(); ++i) {
@@ -59,7 +59,6 @@ std::vector<Near> find_near(const SoftBody& body, const std::vector<state::Body>
     if (settings.plane != WorldPlane::none)
       near.back().section = std::make_shared<const flat::Section>(other.shape(), settings.plane);
   }
-  return near;
 }
 
 void find_contacts(const SoftBody& body, const std::vector<Near>& near, const std::vector<state::Body>& bodies,

@@ -23,9 +23,9 @@ struct Near {
                                double reach) const;
 };
 
-/// @param bodies  all bodies of the world, as the step has left them
-[[nodiscard]] std::vector<Near> find_near(const SoftBody& body, const std::vector<state::Body>& bodies,
-                                          Partners& partners, const WorldSettings& settings, double dt);
+/// @param bodies  all bodies of the world, as the step has left them @param near  what it held is replaced
+void find_near(const SoftBody& body, const std::vector<state::Body>& bodies, Partners& partners,
+               const WorldSettings& settings, double dt, std::vector<Near>& near);
 
 /// The planes in front of which nodes must end a sub-step. A node that is fast enough to reach a surface gets its plane
 /// before it is there: so none passes through a thin wall.

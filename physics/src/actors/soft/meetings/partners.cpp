@@ -103,13 +103,25 @@ void resist(const forces::Load& load, Integrator integrator, double angular_damp
 
 }  // namespace
 
+void Partners::begin(std::vector<state::Body>& bodies, const std::vector<Place>& starts,
+                     const std::vector<forces::Load>& loads, const WorldSettings& settings, int sub_steps, double dt) {
+  bodies_ = &bodies;
+  starts_ = &starts;
+  loads_ = &loads;
+  plane_ = settings.plane;
+  integrator_ = settings.integrator;
+  sub_steps_ = sub_steps;
+  dt_ = dt;
+  all_.clear();
+  numbers_.assign(bodies.size(), 0);
+}
+
 std::uint32_t Partners::number_of(std::uint32_t index) {
-  numbers_.resize(bodies_.size(), 0);
   if (numbers_[index] != 0) return numbers_[index] - 1;
-  const state::Body& body = bodies_[index];
+  const state::Body& body = (*bodies_)[index];
   Partner partner;
   partner.body = index;
-  partner.start = starts_[index];
+  partner.start = (*starts_)[index];
   partner.end = {body.center, body.motion.pose.rotation, body.twist};
   if (!body.immovable() && !body.sensor()) {
     partner.mass = body.mass().mass;
@@ -120,7 +132,7 @@ std::uint32_t Partners::number_of(std::uint32_t index) {
       // In a planar world, everything turns it about the normal alone.
       const int normal = flat::Axes::of(plane_).normal;
       const double damping = body.makeup->linear_damping;
-      const double drag = std::max(0.0, loads_[index].drag - damping);
+      const double drag = std::max(0.0, (*loads_)[index].drag - damping);
       partner.mass *= (1 + dt_ * drag) * heavier_in_plane(damping, sub_steps_, dt_);
       partner.inverse_mass = 1 / partner.mass;
       const double moment =
@@ -128,7 +140,7 @@ std::uint32_t Partners::number_of(std::uint32_t index) {
       partner.inertia = moment * Mat3::Identity();
       partner.inverse_inertia = (1 / moment) * Mat3::Identity();
     } else {
-      resist(loads_[index], integrator_, body.makeup->angular_damping, dt_, partner);
+      resist((*loads_)[index], integrator_, body.makeup->angular_damping, dt_, partner);
     }
     const Vec3 mean = 0.5 * (partner.start.twist.linear + partner.end.twist.linear);
     const Vec3 off = partner.end.center - partner.start.center - dt_ * mean;
@@ -161,10 +173,9 @@ void Partners::go_to(double time, double h) {
   }
 }
 
-std::vector<Gift> Partners::given() const {
-  std::vector<Gift> gifts;
+void Partners::tell_given(std::vector<Gift>& gifts) const {
+  gifts.clear();
   for (const Partner& partner : all_) gifts.push_back({partner.moved, partner.turned, partner.taken});
-  return gifts;
 }
 
 void Partners::take_back(const std::vector<Gift>& gifts) {
@@ -190,7 +201,7 @@ void Partners::accept(double h) {
 void Partners::finish() {
   for (const Partner& partner : all_) {
     if (partner.taken == Vec3::Zero()) continue;
-    state::Body& body = bodies_[partner.body];
+    state::Body& body = (*bodies_)[partner.body];
     if (!partner.moves()) {
       if (body.immovable()) body.extra.own().reaction += partner.taken;
       continue;

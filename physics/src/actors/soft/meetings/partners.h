@@ -57,30 +57,24 @@ struct Gift {
 /// All bodies that soft ones meet in a step.
 class Partners {
  public:
+  /// Begins a step.
   /// @param starts  by body, as they were before the step
   /// @param loads      of the step, by body
   /// @param sub_steps  of a world in a plane
-  Partners(std::vector<state::Body>& bodies, const std::vector<Place>& starts, const std::vector<forces::Load>& loads,
-           const WorldSettings& settings, int sub_steps, double dt)
-      : bodies_(bodies),
-        starts_(starts),
-        loads_(loads),
-        plane_(settings.plane),
-        integrator_(settings.integrator),
-        sub_steps_(sub_steps),
-        dt_(dt) {}
+  void begin(std::vector<state::Body>& bodies, const std::vector<Place>& starts, const std::vector<forces::Load>& loads,
+             const WorldSettings& settings, int sub_steps, double dt);
 
   [[nodiscard]] std::uint32_t number_of(std::uint32_t body);
   [[nodiscard]] Partner& operator[](std::uint32_t number) { return all_[number]; }
   [[nodiscard]] const Partner& operator[](std::uint32_t number) const { return all_[number]; }
   [[nodiscard]] std::size_t size() const { return all_.size(); }
-  [[nodiscard]] const state::Body& body(std::uint32_t index) const { return bodies_[index]; }
-  [[nodiscard]] const Place& start(std::uint32_t index) const { return starts_[index]; }
+  [[nodiscard]] const state::Body& body(std::uint32_t index) const { return (*bodies_)[index]; }
+  [[nodiscard]] const Place& start(std::uint32_t index) const { return (*starts_)[index]; }
 
   /// Advances to a time since the start of the step, by a sub-step of length h.
   void go_to(double time, double h);
   /// What each has been given so far in the sub-step, by index. `take_back` subtracts what one soft body has given.
-  [[nodiscard]] std::vector<Gift> given() const;
+  void tell_given(std::vector<Gift>& gifts) const;
   void take_back(const std::vector<Gift>& gifts);
   /// Applies what the bodies were given in the sub-step.
   void accept(double h);
@@ -88,13 +82,13 @@ class Partners {
   void finish();
 
  private:
-  std::vector<state::Body>& bodies_;
-  const std::vector<Place>& starts_;
-  const std::vector<forces::Load>& loads_;
-  WorldPlane plane_;
-  Integrator integrator_;
-  int sub_steps_;
-  double dt_;
+  std::vector<state::Body>* bodies_ = nullptr;
+  const std::vector<Place>* starts_ = nullptr;
+  const std::vector<forces::Load>* loads_ = nullptr;
+  WorldPlane plane_{};
+  Integrator integrator_{};
+  int sub_steps_ = 1;
+  double dt_ = 0;
   std::vector<Partner> all_;
   std::vector<std::uint32_t> numbers_;  ///< by body, plus 1
 };
