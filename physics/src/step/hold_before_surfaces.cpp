@@ -39,6 +39,11 @@ void World::Implementation::find_obstacles() {
   workers().ranges(active.size(), step::contacts_worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const state::Body &a = bodies[active[i]->a], &b = bodies[active[i]->b];
+      const std::uint32_t mover = a.immovable() ? active[i]->b : active[i]->a;
+      if (!by_strategies.empty() && by_strategies[mover] != 0) {
+        obstacles[i] = step::Obstacle::none;
+        continue;
+      }
       const bool surface = surfaces::surface_of(a.shape().solid) || surfaces::surface_of(b.shape().solid);
       obstacles[i] = surface                          ? step::Obstacle::surface
                      : a.immovable() != b.immovable() ? step::Obstacle::solid

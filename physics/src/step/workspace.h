@@ -124,7 +124,8 @@ struct Workspace {
   islands::ShiftedApart shifted_apart;
   std::vector<Solvers> solvers;  ///< one for each thread
   std::vector<std::uint32_t> islands_by_size;
-  std::vector<char> moved;                          ///< by a solver in this step
+  std::vector<char> moved;          ///< by a solver in this step
+  std::vector<char> by_strategies;  ///< by body: its island goes by its own strategies; empty if none does
   std::vector<contacts::ContactConstraint> struck;  ///< in this step, between bodies that have separated since
   double complementarity = 0;                       ///< residual of the last step where the solver is `lcp`, m/s
   state::Makeups makeups;                           ///< of the bodies that were added last

@@ -259,6 +259,13 @@ void World::Implementation::solve_islands(double dt) {
     for (const islands::IslandContents& island : all)
       islands::bound_squeezed(island, bodies, loads, settings.push_out_speed, dt,
                               [this](std::uint32_t i) -> const Twist& { return starts[i].twist; });
+  if (goes_by_strategies()) {
+    by_strategies.assign(bodies.size(), 0);
+    for (const islands::IslandContents& island : all)
+      if (goes_by_strategies(island))
+        for (const contacts::ContactConstraint* contact : island.contacts)
+          by_strategies[contact->a] = by_strategies[contact->b] = 1;
+  }
   free_islands.begin(bodies.size());
   const auto start_of = [this](std::uint32_t index) -> islands::FreeStart {
     const step::Start& start = starts[index];
@@ -276,6 +283,7 @@ void World::Implementation::solve_islands(double dt) {
 }
 
 void World::Implementation::advance_bodies(double dt) {
+  by_strategies.clear();
   if (goes_by_impacts())
     solve_by_impacts(dt);
   else
@@ -471,7 +479,7 @@ void World::Implementation::step(double dt, double of_parts) {
   failed = true;
   note_soft_starts();
   advance_bodies(dt);
-  if (!goes_by_strategies()) {
+  if (!strategies::chosen(settings)) {
     find_obstacles();
     hold_before_surfaces();
     hold_before_walls(dt);

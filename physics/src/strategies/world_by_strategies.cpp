@@ -11,6 +11,7 @@
 #include "collision/surfaces/surface.h"
 #include "contacts/meeting.h"
 #include "forces/drive_law.h"
+#include "state/checks.h"
 #include "state/world_data.h"
 #include "step/keyed_step.h"
 #include "strategies/arrived.h"
@@ -171,6 +172,11 @@ Detection World::Implementation::detection_of(const contacts::PairInContact& pai
 
 bool World::Implementation::goes_by_strategies(const islands::IslandContents& island) const {
   if (!goes_by_strategies() || !island.springs.empty() || !island.joints.empty()) return false;
+  const auto asks = [&](std::uint32_t body) { return state::asks_for_other_detection(*bodies[body].makeup); };
+  if (!strategies::chosen(settings) &&
+      std::none_of(island.contacts.begin(), island.contacts.end(),
+                   [&](const auto* contact) { return asks(contact->a) || asks(contact->b); }))
+    return false;
   return std::none_of(island.contacts.begin(), island.contacts.end(), [&](const auto* contact) {
     return bodies[contact->a].drive.owner() == Owner::driven || bodies[contact->b].drive.owner() == Owner::driven;
   });
@@ -322,18 +328,27 @@ bool World::Implementation::goes_by_impacts() const {
 
 std::vector<contacts::ContactConstraint> World::Implementation::solve_as_usual(double dt, std::vector<char>& usual) {
   usual.assign(bodies.size(), 0);
-  std::vector<char> marks(bodies.size(), 0);  // by island
-  bool any = false;
-  const auto mark = [&](std::uint32_t a, std::uint32_t b) {
+  // Where only some bodies ask for it, all islands are solved as usual but those of these bodies.
+  const bool all_ask = strategies::chosen(settings);
+  std::vector<char> marks(bodies.size(), all_ask ? 0 : 1);  // by island: solved as usual
+  bool any = !all_ask;
+  const auto set = [&](std::uint32_t a, std::uint32_t b, bool as_usual) {
     for (const std::uint32_t index : {a, b}) {
       if (index == joints::JointLink::world || bodies[index].immovable()) continue;
-      marks[islands.of(index)] = 1;
-      any = true;
+      marks[islands.of(index)] = as_usual ? 1 : 0;
+      any = any || as_usual;
     }
   };
+  const auto mark = [&](std::uint32_t a, std::uint32_t b) { set(a, b, true); };
+  if (!all_ask)
+    for (const std::uint32_t index : watched)
+      if (state::asks_for_other_detection(*bodies[index].makeup)) set(index, index, false);
   for (const islands::IslandContents& island :
        island_sorter.sort(bodies, islands, active, stiff_springs, links, workers())) {
-    if (goes_by_strategies(island)) continue;
+    if (goes_by_strategies(island)) {
+      for (const contacts::ContactConstraint* contact : island.contacts) set(contact->a, contact->b, false);
+      continue;
+    }
     for (const contacts::ContactConstraint* contact : island.contacts) mark(contact->a, contact->b);
     for (const step::SpringRow* spring : island.springs) mark(spring->a, spring->b);
     for (const joints::JointLink* link : island.joints) mark(link->a, link->b);
@@ -352,11 +367,6 @@ std::vector<contacts::ContactConstraint> World::Implementation::solve_as_usual(d
     state::Body& body = bodies[index];
     if (body.immovable() || marks[islands.of(index)] == 0) continue;
     usual[index] = 1;
-    if (body.asleep || moved[index] != 0) continue;
-    if (body.drive.owner() == Owner::driven)
-      forces::pull(body, loads[index], dt);
-    else
-      fly_alone(index, dt, dt);
   }
   std::vector<contacts::ContactConstraint> solved;
   solved.reserve(active.size());
@@ -368,6 +378,11 @@ std::vector<contacts::ContactConstraint> World::Implementation::solve_as_usual(d
 void World::Implementation::solve_by_impacts(double dt) {
   std::vector<char> usual;
   const std::vector<contacts::ContactConstraint> solved = solve_as_usual(dt, usual);
+  // What is solved as usual ends its step by what the start of it told, whatever is found for the others meanwhile.
+  const std::vector<char> moved_as_usual = moved;
+  std::vector<forces::Load> first_loads = loads;
+  std::vector<collision::Passage> first_passages = passages;
+  forces::Flight later;
   // Only now: what is solved as usual by more threads makes more solvers.
   solvers.resize(std::max<std::size_t>(1, solvers.size()));
   strategies::IslandByStrategies& by = solvers[0].strategies;
@@ -406,11 +421,11 @@ void World::Implementation::solve_by_impacts(double dt) {
     left = std::max(left - h, soon);
     do {
       forces::gather_loads(bodies, watched, forces, settings, time + dt - left, left, workers(), loads, stiff_springs,
-                           flight);
+                           later);
       find_constraints(left);
+      // What has been through the whole step is met in the next.
+      std::erase_if(active, [&](const auto* contact) { return usual[contact->a] != 0 || usual[contact->b] != 0; });
     } while (wake_islands());
-    // What has been through the whole step is met in the next.
-    std::erase_if(active, [&](const auto* contact) { return usual[contact->a] != 0 || usual[contact->b] != 0; });
     for (const std::uint32_t index : watched) {
       found_at[index].center = bodies[index].center;
       found_at[index].rotation = bodies[index].motion.pose.rotation;
@@ -418,7 +433,15 @@ void World::Implementation::solve_by_impacts(double dt) {
   }
   sums.add(active);
   sums.finish(active, struck, solved, dt);
-  for (const std::uint32_t index : watched) moved[index] = bodies[index].immovable() || bodies[index].asleep ? 0 : 1;
+  static_cast<void>(wake_islands());
+  loads = std::move(first_loads);
+  passages = std::move(first_passages);
+  by_strategies.assign(bodies.size(), 0);
+  for (const std::uint32_t index : watched) {
+    const bool as_usual = usual[index] != 0;
+    by_strategies[index] = as_usual ? 0 : 1;
+    moved[index] = as_usual ? moved_as_usual[index] : bodies[index].immovable() || bodies[index].asleep ? 0 : 1;
+  }
 }
 
 void World::Implementation::lead_on(double h, double left) {

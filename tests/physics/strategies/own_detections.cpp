@@ -157,6 +157,59 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("bodies far from one that is found in its own way keep their bits, awake or asleep, whatever moves them") {
+  enum class Far { none, careful, late };
+  const auto played = [](Far far, Integrator integrator) {
+    World world({.integrator = integrator});
+    test::add_floor(world, 0.5);
+    std::vector<BodyId> watched = test::add_stack(world, 5);
+    // Thrown along a floor, thrown at a wall, and hung on a spring.
+    for (int i = 0; i < 6; ++i) {
+      BodySettings ball = test::solid_at(Sphere{0.2}, Vec3(4 + 2 * i, 1 + 0.3 * i, 3));
+      ball.motion.twist.linear = Vec3(3, 0, 20 * (i % 2));
+      ball.restitution = 0.5;
+      watched.push_back(world.add(ball));
+    }
+    BodySettings barrier = test::solid_at(Box{Vec3(20, 4, 0.05)}, Vec3(0, 4, 8));
+    barrier.fixed = true;
+    world.add(barrier);
+    const BodyId hung = world.add(test::solid_at(Box{Vec3(0.3, 0.3, 0.3)}, Vec3(-8, 3, 0)));
+    world.add_force(Spring{.a = hung, .anchor_b = Vec3(-8, 5, 0), .rest_length = 1, .stiffness = 200, .damping = 3});
+    watched.push_back(hung);
+    if (far != Far::none) {
+      const Own own = far == Far::careful ? Detection::time_of_impact : Detection::discrete;
+      BodySettings shot = bullet(1000, own);
+      shot.motion.pose.position.y() = 1;
+      world.add(shot);
+      world.add(wall(1000, {}));
+      BodySettings bouncing = dropped(1000, own);
+      world.add(bouncing);
+    }
+    std::vector<Motion> motions;
+    for (int step = 0; step < 300; ++step) {
+      world.step(1.0 / 60);
+      for (const BodyId body : watched) motions.push_back(world.motion(body));
+    }
+    return motions;
+  };
+  for (const Integrator integrator : {Integrator{}, Integrator::rk4}) {
+    const std::vector<Motion> alone = played(Far::none, integrator);
+    for (const Far far : {Far::careful, Far::late}) {
+      CAPTURE(static_cast<int>(integrator));
+      CAPTURE(static_cast<int>(far));
+      const std::vector<Motion> beside = played(far, integrator);
+      REQUIRE(beside.size() == alone.size());
+      for (std::size_t i = 0; i < alone.size(); ++i) {
+        CAPTURE(i);
+        REQUIRE(beside[i].pose.position == alone[i].pose.position);
+        REQUIRE(beside[i].pose.rotation.coeffs() == alone[i].pose.rotation.coeffs());
+        REQUIRE(beside[i].twist.linear == alone[i].twist.linear);
+        REQUIRE(beside[i].twist.angular == alone[i].twist.angular);
+      }
+    }
+  }
+}
+
 TEST_CASE("collisions of bodies are hashed, and a world with them steps on with the same bits after it was loaded") {
   const auto made = [](Own own) {
     World world(test::with(ContactSolver::iterative));

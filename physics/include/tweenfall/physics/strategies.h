@@ -3,10 +3,11 @@
 /// Alternatives to parts of a world's step: each is a textbook method, to be read, watched
 /// and compared. The defaults are the fastest and the most exact.
 ///
-/// If a world asks for another solver, separation or collision, or one of its bodies for another collision, all its
-/// islands of contacts use them, and the defaults of the others in their plain form: the iterative solver sweep after
-/// sweep, and overlap removed by positional impulses. Islands with joints, drives or springs too stiff for the step are
-/// solved as usual.
+/// If a world asks for another solver, separation or collision, all its islands of contacts use them, and the defaults
+/// of the others in their plain form: the iterative solver sweep after sweep, and overlap removed by positional
+/// impulses. If only some of its bodies ask for another collision, the islands of contacts with them do, and all others
+/// are solved as usual, to the bit. Islands with joints, drives or springs too stiff for the step are solved as usual,
+/// too.
 
 #include <tweenfall/physics/world.h>
 
