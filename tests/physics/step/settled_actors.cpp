@@ -31,9 +31,10 @@ std::size_t taken_by(const Step& step, double settling = 2) {
   return test::allocations() - before;
 }
 
-SoftSettings hung_cloth() {
-  SoftSettings cloth = tweenfall::cloth({.corner = {0, 3, 0}});
+SoftSettings hung_cloth(const Vec3& corner, double thickness) {
+  SoftSettings cloth = tweenfall::cloth({.corner = corner});
   cloth.pins = {{.node = 0, .in_place = true}, {.node = 20, .in_place = true}};
+  cloth.thickness = thickness;
   return cloth;
 }
 
@@ -59,8 +60,10 @@ TEST_CASE("a settled step with sensors takes no memory") {
 }
 
 TEST_CASE("a settled step of ropes, cloths and volumes takes no memory, alone and beside each other") {
-  const std::vector<SoftSettings> kinds{hung_cloth(), hung_rope(Vec3(4, 3, 0)), hung_rope(Vec3(5, 3, 0)),
-                                        soft_box({.pose = {.position = {-3, 0.51, 0}}})};
+  const std::vector<SoftSettings> kinds{
+      hung_cloth(Vec3(0, 3, 0), 0),    hung_rope(Vec3(4, 3, 0)),
+      hung_rope(Vec3(5, 3, 0)),        soft_box({.pose = {.position = {-3, 0.51, 0}}}),
+      hung_cloth(Vec3(0, 3, 2), 0.04), hung_cloth(Vec3(0.05, 3, 2), 0.04)};
   for (std::size_t kind = 0; kind <= kinds.size(); ++kind) {
     CAPTURE(kind);
     World world = world_on_a_floor();

@@ -375,7 +375,7 @@ void World::Implementation::advance_softs(double dt, double whole) {
     std::vector<char>& pushed = memory.pushed;
     pushed.assign(courses.size(), 0);
     if (!thick.empty()) {
-      const std::vector<char> its =
+      const std::vector<char>& its =
           soft::keep_apart_from_each_other(thick, partners, h, backward, settings.push_out_speed);
       for (std::size_t m = 0; m < among.size(); ++m) pushed[among[m]] = its[m];
     }

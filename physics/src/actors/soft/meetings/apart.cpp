@@ -37,9 +37,15 @@ std::uint64_t key_of(const Cell& cell) {
   return wrapped(cell[0]) << 42 | wrapped(cell[1]) << 21 | wrapped(cell[2]);
 }
 
+/// A cell, and a node in it.
+using Entry = std::pair<std::uint64_t, std::uint32_t>;
+
 class NodeGrid {
  public:
-  NodeGrid(const std::vector<Vec3>& places, double size) : places_(places), size_(size) {
+  /// @param entries  memory to work in
+  NodeGrid(const std::vector<Vec3>& places, double size, std::vector<Entry>& entries)
+      : places_(places), size_(size), entries_(entries) {
+    entries_.clear();
     for (std::uint32_t i = 0; i < places.size(); ++i) entries_.push_back({key_of(cell_of(i)), i});
     std::sort(entries_.begin(), entries_.end());
   }
@@ -52,8 +58,6 @@ class NodeGrid {
   }
 
  private:
-  using Entry = std::pair<std::uint64_t, std::uint32_t>;
-
   [[nodiscard]] Cell cell_of(std::uint32_t node) const {
     return {std::floor(places_[node].x() / size_), std::floor(places_[node].y() / size_),
             std::floor(places_[node].z() / size_)};
@@ -75,14 +79,50 @@ class NodeGrid {
 
   const std::vector<Vec3>& places_;
   double size_;
-  std::vector<Entry> entries_;
+  std::vector<Entry>& entries_;
+};
+
+/// Kept from one sub-step to the next, so that none takes memory.
+struct ApartMemory {
+  std::vector<std::uint32_t> first;   ///< node of each soft body
+  std::vector<std::uint32_t> member;  ///< the soft body of each node
+  std::vector<Vec3> places, before;
+  std::vector<double> weight;  ///< inverse masses; 0 of held nodes
+  std::vector<NodePair> pairs;
+  std::vector<Entry> entries;
+  std::vector<int> heeded;   ///< by node: how many it has met
+  std::vector<char> pushed;  ///< by soft body
+
+  void clear() {
+    first.clear();
+    member.clear();
+    places.clear();
+    before.clear();
+    weight.clear();
+    pairs.clear();
+  }
+  [[nodiscard]] static ApartMemory& own() {
+    thread_local ApartMemory memory;
+    memory.clear();
+    return memory;
+  }
 };
 
 /// Nodes of one soft body, or of several, that keep apart.
 class KeptApart {
  public:
   KeptApart(std::span<const Thick> thick, Partners& partners, double h, bool backward)
-      : thick_(thick), partners_(partners), h_(h), backward_(backward) {
+      : memory_(ApartMemory::own()),
+        thick_(thick),
+        partners_(partners),
+        h_(h),
+        backward_(backward),
+        first_(memory_.first),
+        member_(memory_.member),
+        places_(memory_.places),
+        before_(memory_.before),
+        weight_(memory_.weight),
+        pairs_(memory_.pairs) {
     for (std::uint32_t member = 0; member < thick.size(); ++member) {
       const SoftSettings& made = *thick[member].body->made;
       widest_ = std::max(widest_, made.thickness);
@@ -99,8 +139,9 @@ class KeptApart {
 
   /// Pairs within one soft body, or between different ones.
   void find(double push_out_speed, bool within) {
-    std::vector<int> heeded(weight_.size(), 0);
-    NodeGrid(places_, widest_).each_pair([&](std::uint32_t a, std::uint32_t b) {
+    std::vector<int>& heeded = memory_.heeded;
+    heeded.assign(weight_.size(), 0);
+    NodeGrid(places_, widest_, memory_.entries).each_pair([&](std::uint32_t a, std::uint32_t b) {
       if (!(weight_[a] + weight_[b] > 0) || (member_[a] == member_[b]) != within) return true;
       const SoftSettings &one = made_of(a), &other = made_of(b);
       if (!within && !meet_each_other(one, other)) return true;
@@ -123,13 +164,14 @@ class KeptApart {
   }
 
   /// @return by soft body, whether it was pushed
-  std::vector<char> push() {
+  const std::vector<char>& push() {
     for (int pass = 0; pass < passes; ++pass)
       for (std::size_t i = 0; i < pairs_.size(); ++i)
         meet(pairs_[backward_ == (pass % 2 == 0) ? pairs_.size() - 1 - i : i]);
     for (std::uint32_t node = 0; node < places_.size(); ++node)
       thick_[member_[node]].body->positions[node - first_[member_[node]]] = places_[node];
-    std::vector<char> pushed(thick_.size(), 0);
+    std::vector<char>& pushed = memory_.pushed;
+    pushed.assign(thick_.size(), 0);
     for (const NodePair& pair : pairs_)
       if (pair.pressed > 0) pushed[member_[pair.a]] = pushed[member_[pair.b]] = 1;
     return pushed;
@@ -179,16 +221,16 @@ class KeptApart {
     }
   }
 
+  ApartMemory& memory_;
   std::span<const Thick> thick_;
   Partners& partners_;
   double h_;
   bool backward_;
   double widest_ = 0;
-  std::vector<std::uint32_t> first_;   ///< node of each soft body
-  std::vector<std::uint32_t> member_;  ///< the soft body of each node
-  std::vector<Vec3> places_, before_;
-  std::vector<double> weight_;  ///< inverse masses; 0 of held nodes
-  std::vector<NodePair> pairs_;
+  std::vector<std::uint32_t>&first_, &member_;
+  std::vector<Vec3>&places_, &before_;
+  std::vector<double>& weight_;
+  std::vector<NodePair>& pairs_;
 };
 
 }  // namespace
@@ -204,8 +246,8 @@ void keep_apart(const Thick& thick, Partners& partners, double h, bool backward,
   static_cast<void>(kept.push());
 }
 
-std::vector<char> keep_apart_from_each_other(std::span<const Thick> thick, Partners& partners, double h, bool backward,
-                                             double push_out_speed) {
+const std::vector<char>& keep_apart_from_each_other(std::span<const Thick> thick, Partners& partners, double h,
+                                                    bool backward, double push_out_speed) {
   KeptApart kept(thick, partners, h, backward);
   kept.find(push_out_speed, false);
   return kept.push();

@@ -20,8 +20,9 @@ struct Thick {
 /// Keeps the nodes of a soft body apart by its thickness, as balls that do not bounce, with friction.
 /// @param h  length of the sub-step, s @param push_out_speed  greatest speed of overlapping nodes, m/s
 void keep_apart(const Thick& thick, Partners& partners, double h, bool backward, double push_out_speed);
-/// The same for nodes of different soft bodies that meet each other. @return by soft body, whether another pushed it
-[[nodiscard]] std::vector<char> keep_apart_from_each_other(std::span<const Thick> thick, Partners& partners, double h,
-                                                           bool backward, double push_out_speed);
+/// The same for nodes of different soft bodies that meet each other.
+/// @return by soft body, whether another pushed it; valid until the next call in this thread
+[[nodiscard]] const std::vector<char>& keep_apart_from_each_other(std::span<const Thick> thick, Partners& partners,
+                                                                  double h, bool backward, double push_out_speed);
 
 }  // namespace tweenfall::soft
