@@ -86,6 +86,19 @@ bool on_its_way(const StageState& state, const StagedBody& body) {
   return state.world.owner(body.id) != Owner::free && !state.world.is_fixed(body.id);
 }
 
+/// A path that settles as seen from others is evaluated together with all of them: in long chains, every so many bodies
+/// one settles by itself.
+constexpr std::ptrdiff_t most_above = 32;
+
+/// The path as seen from which a body settles; null for none.
+const Path* path_above(const StageState& state, const StagedBody& body) {
+  const StagedBody* const next = joined_above(state, body);
+  if (!next || !on_its_way(state, *next)) return nullptr;
+  std::ptrdiff_t above = 1;
+  for (const Path* path = next->path.above(); path; path = path->above()) ++above;
+  return above < most_above ? &next->path : nullptr;
+}
+
 /// The path of a body that follows one again. In a figure all are moved alike: as that of its topmost body, even if
 /// that comes later or not at all; else its limbs would go their own ways. And each settles along with the one above,
 /// if that follows a path; else their joint would open.
@@ -95,9 +108,8 @@ Path path_again(const StageState& state, const StagedBody& body, const HandBack&
     const Motion beginning = moved_on(state.world.motion(one.id), center, begins - state.time);
     return one.path.recovered(begins, hand_back, beginning, one.released_at, leader, above);
   };
-  const StagedBody* const next = joined_above(state, body);
-  const Path* const above = next && on_its_way(state, *next) ? &next->path : nullptr;
-  if (hand_back.anchor == HandBack::Anchor::keep || !next) return recovered(body, nullptr, above);
+  const Path* const above = path_above(state, body);
+  if (hand_back.anchor == HandBack::Anchor::keep || !joined_above(state, body)) return recovered(body, nullptr, above);
   const StagedBody& top = top_of_figure(state, body);
   const Path leader = state.world.owner(top.id) == Owner::free ? recovered(top, nullptr, nullptr) : top.path;
   return recovered(body, &leader, above);
@@ -108,9 +120,8 @@ void settle_below(StageState& state, const StagedBody& body, double time) {
   for (const NodeId node : state.below(body.node, [](NodeId) { return true; })) {
     StagedBody* const one = state.body(node);
     if (!one || !one->path.starts_settling(time) || !on_its_way(state, *one)) continue;
-    const StagedBody* const above = joined_above(state, *one);
-    if (above && on_its_way(state, *above) && above->path.starts_settling(time))
-      one->path = one->path.along(above->path);
+    const Path* const above = path_above(state, *one);
+    if (above && above->starts_settling(time)) one->path = one->path.along(*above);
   }
 }
 
