@@ -25,6 +25,7 @@ void World::Implementation::sense() {
   left_sensors.clear();
   if (sensors.empty() && overlaps.empty()) return;
   next_overlaps.clear();
+  thread_local std::vector<std::uint32_t> sensed;  // by one sensor
   scene.forget();
   const queries::Scene& here = scene.get([this](queries::Scene& ahead) { queries::arrange_bodies(ahead, bodies); });
   for (const std::uint32_t index : sensors) {

@@ -106,7 +106,6 @@ struct Workspace {
   std::vector<pairs::Pair> parted;               ///< those of which some part no longer touches
   state::LazilyMade<std::vector<Contact>> told;  ///< what the caller sees of the contacts
   std::vector<SensorOverlap> next_overlaps;
-  std::vector<std::uint32_t> sensed;         ///< by one sensor
   std::vector<collision::Passage> passages;  ///< by body
   std::vector<std::uint64_t> looked_at;      ///< by body: the look for which its passage was made
   std::uint64_t look = 0;
