@@ -1,6 +1,9 @@
 #include <tweenfall/anim/blend.h>
 #include <tweenfall/anim/root_motion.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "chains/problems.h"
 #include "operations/account.h"
 #include "operations/changing.h"
@@ -10,21 +13,30 @@ namespace tweenfall::graphs {
 
 namespace {
 
-bool is_moved_by_clips(const Operation& operation, std::size_t node) {
-  const auto moves = [&](const pose::BoundClip* clip) { return clip->entry_of(node) != pose::BoundClip::no_entry; };
-  return std::ranges::any_of(operation.own_clips(), moves) ||
-         std::ranges::any_of(operation.operands(),
-                             [&](const Operation* part) { return is_moved_by_clips(*part, node); });
+/// Adds an operation and what it is made of, each once.
+void gather(const Operation& operation, std::vector<const Operation*>& all) {
+  if (std::ranges::find(all, &operation) != all.end()) return;
+  all.push_back(&operation);
+  for (const Operation* part : operation.operands()) gather(*part, all);
 }
 
 /// What stands above a figure and is not moved by its clips, the nearest first: the figure rides on it. Nothing where
 /// its clips move no node from `node` up.
 std::vector<std::size_t> carriers_of(const Hierarchy& nodes, std::size_t node, const Operation* clips) {
+  std::vector<const Operation*> all;
+  if (clips) gather(*clips, all);
+  const auto is_moved = [&](std::size_t joint) {
+    return std::ranges::any_of(all, [joint](const Operation* operation) {
+      return std::ranges::any_of(operation->own_clips(), [joint](const pose::BoundClip* clip) {
+        return clip->entry_of(joint) != pose::BoundClip::no_entry;
+      });
+    });
+  };
   std::vector<std::size_t> above;
   bool moved = false;
   for (std::size_t i = node; clips && i != no_node; i = nodes[i].parent) {
     above.push_back(i);
-    if (!is_moved_by_clips(*clips, i)) continue;
+    if (!is_moved(i)) continue;
     moved = true;
     above.clear();
   }

@@ -278,16 +278,21 @@ Pose Travel::place_at_start(const Log& log, double start, std::span<Motion> room
 
 Motion Travel::lapped(const Log& log, const Moment& moment, const TravelPlace& reached,
                       std::span<Motion> room) const noexcept {
-  const double since = reached.since, lap = reached.lap;
-  double laps = std::floor((moment.time - since) / lap), time = std::max(moment.time - laps * lap, since);
+  // Whatever rounding does, what is asked of the first lap lies in it: another lap would be asked forever.
+  const double since = reached.since, lap = reached.lap, end = since + lap;
+  double laps = std::max(1.0, std::floor((moment.time - since) / lap));
+  double time = std::clamp(moment.time - laps * lap, since, end);
   if (time == since && moment.side == Side::in) {
     laps -= 1;
-    time = since + lap;
+    time = end;
+  } else if (time == end && moment.side == Side::out) {
+    laps += 1;
+    time = since;
   }
   const Pose back = undone(reached.base), whole = compose(back, reached.pose);
   Motion ahead;
   ahead.pose = compose(compose(reached.base, repeated(whole, laps)), back);
-  return compose(ahead, at(log, {std::min(time, since + lap), moment.side, moment.start}, room));
+  return compose(ahead, at(log, {time, moment.side, moment.start}, room));
 }
 
 Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) const noexcept {

@@ -101,7 +101,8 @@ void PoseTree::stack_up() {
     for (const GraphOperand& operand : things_[i].operands)
       if (const std::size_t part = thing_of(operand); part < things_.size()) {
         ++uses[part];
-        const bool alone = things_[i].operands.size() == 1 && things_[part].operands.size() <= 1;
+        const bool alone =
+            operand.role == "base" && things_[i].operands.size() == 1 && things_[part].operands.size() <= 1;
         if (alone && !things_[part].is_clip) above[i] = part;
       }
   for (std::size_t i = 0; i < things_.size(); ++i) {

@@ -275,7 +275,8 @@ void World::Implementation::find_contacts_of_parts(const contacts::PairInContact
     collision::Passage way;
     Bounds box;
   };
-  std::vector<PartWay> ways_b;
+  thread_local std::vector<PartWay> ways_b;
+  ways_b.clear();
   const std::size_t count_a = std::max<std::size_t>(1, parts_a.size()),
                     count_b = std::max<std::size_t>(1, parts_b.size());
   ways_b.reserve(count_b);

@@ -35,10 +35,6 @@ class Seams {
   /// Of contacts with one part of the other body, marks those to drop.
   void mark(std::span<const ContactConstraint* const> contacts, std::vector<bool>& dropped) {
     contacts_ = contacts;
-    const Vec3& normal = contacts[0]->manifold.normal;
-    if (std::all_of(contacts.begin(), contacts.end(),
-                    [&](const auto* contact) { return contact->manifold.normal.dot(normal) >= one_normal; }))
-      return;
     see_all();
     std::vector<std::size_t> order(contacts.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -131,7 +127,6 @@ class Seams {
     const double radius = looked_around * near_;
     const convex::Core core = core_around(*seen_[index].part, point);
     const double round = std::max(core.radius, core.half.x());
-    // A curved surface falls away from its plane.
     const Shape& part = *seen_[index].part;
     // A curved surface falls away from its plane.
     const double within = 0.1 * flush * near_ + (is_flat(core) ? 0 : radius * radius / std::max(round, radius));
@@ -203,6 +198,14 @@ void mark_seams(std::span<const ContactConstraint> contacts, const collision::Pa
   }
 }
 
+/// Where all face one way, none is at a seam.
+bool face_alike(std::span<const ContactConstraint> contacts) {
+  const Vec3& normal = contacts[0].manifold.normal;
+  return std::all_of(contacts.begin(), contacts.end(), [&](const ContactConstraint& contact) {
+    return contact.manifold.normal.dot(normal) >= one_normal;
+  });
+}
+
 bool is_later(const ContactConstraint& contact) {
   return contact.impact_time > 0;
 }
@@ -258,7 +261,7 @@ std::vector<ContactHead> drop_contacts_of_seams(FoundContacts& found, std::size_
   std::vector<ContactHead> all_dropped;
   for (const bool of_a : {true, false}) {
     const std::span<ContactConstraint> contacts = found.all().subspan(first);
-    if (contacts.size() < 2) break;
+    if (contacts.size() < 2 || face_alike(contacts)) break;
     std::vector<bool> dropped(contacts.size());
     mark_seams(contacts, of_a ? way_a : way_b, of_a ? way_b : way_a, of_a, until, dropped);
     for (std::size_t i = 0; i < contacts.size(); ++i)

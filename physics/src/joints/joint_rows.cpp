@@ -195,20 +195,21 @@ void JointRows::draw(const Direction& direction, double error, double speed, dou
 /// Computation for Structural Dynamics, Journal of the Engineering Mechanics Division 85, 1959.
 void JointRows::spring(const Direction& direction, const Placement& at, double error, double rate, double stiffness,
                        double damping) {
-  /// Square of the angle by which a swing may advance in a sub-step and be kept, rad^2.
+  // Square of the angle by which a swing may advance in a sub-step and be kept, rad^2.
   constexpr double followed = 0.1;
   if (!(h_ * (damping + h_ * stiffness) > 0) || errors_only_) return idle();
   Row& row = add(direction);
   // Its pull also swings the bodies across its line, and turns them about their levers.
   const double length = at.gap().norm();
   const auto turns = [&](const Mat3& inverse_inertia, const Vec3& lever) {
-    return inverse_inertia.trace() * lever.norm() * (1 + lever.norm() / length);
+    const double turn = inverse_inertia.trace() * lever.norm();
+    return turn > 0 ? turn * (1 + lever.norm() / length) : 0;
   };
   const double across = (masses_.inverse_mass_a + masses_.inverse_mass_b) / length +
                         turns(masses_.inverse_inertia_a, at.arm_a) + turns(masses_.inverse_inertia_b, at.arm_b);
   const double advance =
       h_ * h_ * stiffness * (coupling(direction, direction) + (error == 0 ? 0 : std::abs(error) * across));
-  const double kept = advance > followed ? followed / advance : 1;
+  const double kept = advance <= followed ? 1 : followed / advance;
   const double before = 0.25 * kept, after = 1 - 3 * before;
   const double firmness = damping + after * h_ * stiffness;
   row.compliance = 1 / (h_ * firmness);

@@ -184,7 +184,10 @@ ConvexHull hull_around(std::span<const Vec3> points, std::size_t most) {
     chosen = shapes::widest(points);
     begun = shapes::hull_if_any(points, chosen);
   }
-  if (!begun) return ConvexHull(points);  // throws what is wrong with all of them
+  if (!begun) {
+    static_cast<void>(ConvexHull(points));  // throws what is wrong with all of them
+    throw std::invalid_argument("points that nearly lie in one plane have no hull of so few vertices");
+  }
   ConvexHull hull = *begun;
   const double noise = 1e-6 * shapes::extent_of(points);
   while (chosen.size() < most) {
@@ -238,7 +241,8 @@ Shape capsule_around(std::span<const Vec3> points, const std::optional<Vec3>& al
   if (!fitted) throw std::invalid_argument("a capsule around points needs some that span a volume");
   const double extent = shapes::extent_of(points);
   if (!(extent > 0 && fitted->capsule.radius > 1e-6 * extent))
-    throw std::invalid_argument("a capsule around points needs some beside its axis, but all " +
+    throw std::invalid_argument("a capsule around points needs some beside its axis, but " +
+                                std::string(extent > 0 ? "nearly all of the " : "all ") +
                                 std::to_string(points.size()) + " points lie " +
                                 (extent > 0 ? "on one straight line" : "at one place"));
   Shape shape{fitted->capsule, {}};

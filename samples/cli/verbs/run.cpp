@@ -143,7 +143,8 @@ Run declare_run(Arguments& arguments) {
   declare_amount(arguments, *options);
   arguments.text("-o,--output", "OUT", options->output,
                  "the recording: .json .csv .svg .html or .glb; - prints the JSON; without it a summary");
-  arguments.text("--inputs", "FILE", options->inputs_file, "JSON file of timed inputs to plays, graphs, vehicles and bodies");
+  arguments.text("--inputs", "FILE", options->inputs_file,
+                 "JSON file of timed inputs to plays, graphs, vehicles and bodies");
   arguments.number("--threads", "N", options->threads,
                    "threads that share a step of physics; the recording is the same with any number");
   arguments.flag("--json", options->json, "print the recording as JSON");

@@ -328,6 +328,30 @@ TEST_CASE("blended walkers of any lengths drift no more in ten thousand laps tha
   }
 }
 
+TEST_CASE("blended walkers whose laps begin at any frame are asked for at any other") {
+  // Sums of a beginning and a lap, both of frames, are rounded up and down.
+  const SpacePose space{
+      .by = {ByParameter{"speed"}}, .entries = {{"walk", {0, 0}}, {"run", {1, 0}}}, .sync = std::string()};
+  const double changed = 0.5, lap = 0.5 * 1 + 0.5 * 0.7;
+  for (int begin = 1; begin < 90; ++begin) {
+    CAPTURE(begin);
+    GraphPlayer player =
+        travel_of({{"walk", ClipPose{.clip = "walk"}}, {"run", ClipPose{.clip = "run"}}, {"gaits", space}},
+                  {{.name = "speed", .start = 0.25}}, {{begin / 60., "speed", changed}});
+    double last = carried(player, begin / 60.).position.norm();
+    for (int frame = begin; frame < begin + 600; ++frame) {
+      const double far = carried(player, frame / 60.).position.norm();
+      CHECK(std::abs(far - last) < 0.2);
+      last = far;
+    }
+    for (const double from : {begin / 60., begin / 60. + 1. / 480, begin / 60. + 1. / 240})
+      for (int laps = 1; laps < 12; ++laps) {
+        const double seam = from + laps * lap;
+        CHECK(near(carried(player, seam).position, carried(player, seam, Side::in).position, 1e-9));
+      }
+  }
+}
+
 TEST_CASE("a figure rides on what carries it and is not moved by its clips, on the spot, travelling, or put onto it") {
   const auto nodes = std::make_shared<const Hierarchy>(
       std::vector<Node>{{"world", no_node, {.position = {3, 0, 0}}},

@@ -254,13 +254,14 @@ void follow_blows(StageState& state, const PieceStart& before, double step, std:
     const Blow* known = blow_of(state, contacts[0].a, contacts[0].b);
     const bool goes_on = known != nullptr, presses = std::ranges::any_of(contacts, pressing);
     if (goes_on) met[static_cast<std::size_t>(known - state.blows.data())] = 1;
-    if (!goes_on && !(presses && std::ranges::any_of(contacts, &Contact::began))) return;
+    const auto counts = [&](const Contact& contact) { return pressing(contact) && (goes_on || contact.began); };
+    if (!goes_on && std::ranges::none_of(contacts, counts)) return;
     Blow blow = goes_on ? *known : Blow{.a = contacts[0].a, .b = contacts[0].b, .began = state.time};
     if (!goes_on)
       blow.met = time_of_impact(state, *std::ranges::max_element(contacts, {}, &Contact::approach_speed), before);
     double closing = 0;
     for (const Contact& contact : contacts) {
-      if (pressing(contact)) blow.impulse += contact.impulse * part_of_blow(state, contact, before.twists, dt);
+      if (counts(contact)) blow.impulse += contact.impulse * part_of_blow(state, contact, before.twists, dt);
       blow.speed = std::max(blow.speed, contact.approach_speed);
       closing = std::max(closing, closing_speed(state.world, contact, now));
     }

@@ -68,10 +68,11 @@ bool are_joined(const StageState& state, NodeId a, NodeId b) {
   });
 }
 
-/// The next body above, if the two are joined; else null.
+/// The next body above, if the two are joined and it is no scenery; else null.
 const StagedBody* joined_above(const StageState& state, const StagedBody& body) {
   for (NodeId node = (*state.nodes)[body.node].parent; node != no_node; node = (*state.nodes)[node].parent)
-    if (const StagedBody* const above = state.body(node)) return are_joined(state, node, body.node) ? above : nullptr;
+    if (const StagedBody* const above = state.body(node))
+      return are_joined(state, node, body.node) && !state.world.is_fixed(above->id) ? above : nullptr;
   return nullptr;
 }
 
