@@ -251,7 +251,7 @@ Twist Travel::haste_at(const Log& log, double start, double time, const Motion& 
 
 std::optional<double> Travel::lap_of(const Log& log, const Bearers& bearers, double time) noexcept {
   if (bearers.flow || bearers.count == 0) return {};
-  std::array<double, Bearers::most> rounds;
+  std::array<double, Bearers::most> rounds{};
   for (std::size_t i = 0; i < bearers.count; ++i) {
     const Bearer& each = bearers.list[i];
     if (each.weight.rate != 0) return {};
