@@ -96,10 +96,10 @@ TWEENFALL_KERNELS(avx2, Halves<Four>, [[gnu::target("avx2")]])
 TWEENFALL_MEETINGS(avx2, Halves<Four>, [[gnu::target("avx2")]])
 TWEENFALL_PREPARING(avx2, Four, [[gnu::target("avx2")]])
 constexpr Kernels avx2 = {prepare_avx2, prepare_again_avx2, warm_start_avx2, solve_avx2, hold_avx2, find_meetings_avx2};
-// With eight comparisons at once, g++ evaluates their combination number by number, so it is avoided here.
 TWEENFALL_KERNELS(avx512, Eight, [[gnu::target("avx512f,avx512vl,avx512dq")]])
+TWEENFALL_MEETINGS(avx512, Eight, [[gnu::target("avx512f,avx512vl,avx512dq")]])
 constexpr Kernels avx512 = {prepare_avx2, prepare_again_avx2, warm_start_avx512,
-                            solve_avx512, hold_avx512,        find_meetings_avx2};
+                            solve_avx512, hold_avx512,        find_meetings_avx512};
 #endif
 
 }  // namespace

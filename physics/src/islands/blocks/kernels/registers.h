@@ -88,6 +88,36 @@ struct LanesFrom {
   }
 };
 
+/// Where one is above another, below it, or at least as large.
+template <class Register>
+TWEENFALL_LANES auto above(const Register& a, const Register& b) {
+  return a > b;
+}
+template <class Register>
+TWEENFALL_LANES auto below(const Register& a, const Register& b) {
+  return a < b;
+}
+template <class Register>
+TWEENFALL_LANES auto at_least(const Register& a, const Register& b) {
+  return a >= b;
+}
+#if defined(__x86_64__) || defined(__i386__)
+// g++ combines several comparisons of eight numbers one by one, unless each of them has to be in a register.
+TWEENFALL_LANES EightMasks in_register(EightMasks which) {
+  asm("" : "+v"(which));
+  return which;
+}
+TWEENFALL_LANES EightMasks above(const Eight& a, const Eight& b) {
+  return in_register(a > b);
+}
+TWEENFALL_LANES EightMasks below(const Eight& a, const Eight& b) {
+  return in_register(a < b);
+}
+TWEENFALL_LANES EightMasks at_least(const Eight& a, const Eight& b) {
+  return in_register(a >= b);
+}
+#endif
+
 template <class Masks, class Register>
 TWEENFALL_LANES Register choose(const Masks& which, const Register& yes, const Register& no) {
   return which ? yes : no;
@@ -103,6 +133,22 @@ TWEENFALL_LANES LanesFrom<Part, first> choose(const LanesFrom<Masks, first>& whi
   return {choose(which.of, yes.of, no.of)};
 }
 
+/// The greater of two, and the lesser; the second if neither is.
+template <class Register>
+TWEENFALL_LANES Register greater_of(const Register& a, const Register& b) {
+  return choose(a > b, a, b);
+}
+template <class Register>
+TWEENFALL_LANES Register lesser_of(const Register& a, const Register& b) {
+  return choose(a < b, a, b);
+}
+TWEENFALL_LANES Eight greater_of(const Eight& a, const Eight& b) {
+  return a > b ? a : b;
+}
+TWEENFALL_LANES Eight lesser_of(const Eight& a, const Eight& b) {
+  return a < b ? a : b;
+}
+
 TWEENFALL_LANES bool any_of(const TwoMasks& which) {
   return (which[0] | which[1]) != 0;
 }
@@ -110,8 +156,10 @@ TWEENFALL_LANES bool any_of(const FourMasks& which) {
   return ((which[0] | which[1]) | (which[2] | which[3])) != 0;
 }
 TWEENFALL_LANES bool any_of(const EightMasks& which) {
+  const FourMasks halves =
+      __builtin_shufflevector(which, which, 0, 1, 2, 3) | __builtin_shufflevector(which, which, 4, 5, 6, 7);
   return any_of(
-      FourMasks(__builtin_shufflevector(which, which, 0, 1, 2, 3) | __builtin_shufflevector(which, which, 4, 5, 6, 7)));
+      TwoMasks(__builtin_shufflevector(halves, halves, 0, 1) | __builtin_shufflevector(halves, halves, 2, 3)));
 }
 template <class Half>
 TWEENFALL_LANES bool any_of(const Halves<Half>& which) {
@@ -214,7 +262,7 @@ struct Choice {
 /// A number in each lane.
 template <class Register>
 struct Wide {
-  using Which = Choice<decltype(Register{} > Register{})>;
+  using Which = Choice<decltype(above(Register{}, Register{}))>;
   Register of;
 
   Wide() = default;
@@ -228,14 +276,14 @@ struct Wide {
   TWEENFALL_LANES friend Wide operator*(const Wide& a, const Wide& b) { return Wide(a.of * b.of); }
   TWEENFALL_LANES friend Wide operator/(const Wide& a, const Wide& b) { return Wide(a.of / b.of); }
   TWEENFALL_LANES friend Wide operator-(const Wide& a) { return Wide(-a.of); }
-  TWEENFALL_LANES friend Which operator>(const Wide& a, const Wide& b) { return {a.of > b.of}; }
-  TWEENFALL_LANES friend Which operator<(const Wide& a, const Wide& b) { return {a.of < b.of}; }
-  TWEENFALL_LANES friend Which operator>=(const Wide& a, const Wide& b) { return {a.of >= b.of}; }
+  TWEENFALL_LANES friend Which operator>(const Wide& a, const Wide& b) { return {above(a.of, b.of)}; }
+  TWEENFALL_LANES friend Which operator<(const Wide& a, const Wide& b) { return {below(a.of, b.of)}; }
+  TWEENFALL_LANES friend Which operator>=(const Wide& a, const Wide& b) { return {at_least(a.of, b.of)}; }
   TWEENFALL_LANES friend Wide select(const Which& which, const Wide& yes, const Wide& no) {
     return Wide(choose(which.of, yes.of, no.of));
   }
-  TWEENFALL_LANES friend Wide greater(const Wide& a, const Wide& b) { return select(a > b, a, b); }
-  TWEENFALL_LANES friend Wide lesser(const Wide& a, const Wide& b) { return select(a < b, a, b); }
+  TWEENFALL_LANES friend Wide greater(const Wide& a, const Wide& b) { return Wide(greater_of(a.of, b.of)); }
+  TWEENFALL_LANES friend Wide lesser(const Wide& a, const Wide& b) { return Wide(lesser_of(a.of, b.of)); }
   TWEENFALL_LANES friend Wide root(const Wide& a) { return Wide(root_of(a.of)); }
 };
 
