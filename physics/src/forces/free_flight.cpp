@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "shapes/turn_onto.h"
 
@@ -84,14 +83,6 @@ Vec3 with_energy(const Tumbling& tumbling, double energy, const Vec3& momentum) 
   return within_energy(tumbling, energy, momentum);
 }
 
-/// The axis of a symmetric top: the moments about all axes perpendicular to it are equal.
-std::optional<int> axis_of_top(const Mat3& inertia) {
-  if (inertia(0, 1) != 0 || inertia(0, 2) != 0 || inertia(1, 2) != 0) return std::nullopt;
-  for (int axis = 0; axis < 3; ++axis)
-    if (inertia((axis + 1) % 3, (axis + 1) % 3) == inertia((axis + 2) % 3, (axis + 2) % 3)) return axis;
-  return std::nullopt;
-}
-
 /// A top without torque: it spins about its axis, which goes around the momentum evenly.
 /// Source: Goldstein, Poole, Safko, Classical Mechanics, 2002, section 5.6.
 Spin turned_top(const Body& body, int axis, const Quat& rotation, const Vec3& momentum, double dt) {
@@ -107,6 +98,18 @@ Spin turned_top(const Body& body, int axis, const Quat& rotation, const Vec3& mo
 }
 
 }  // namespace
+
+std::optional<int> axis_of_top(const Mat3& inertia) {
+  if (inertia(0, 1) != 0 || inertia(0, 2) != 0 || inertia(1, 2) != 0) return std::nullopt;
+  for (int axis = 0; axis < 3; ++axis)
+    if (inertia((axis + 1) % 3, (axis + 1) % 3) == inertia((axis + 2) % 3, (axis + 2) % 3)) return axis;
+  return std::nullopt;
+}
+
+Vec3 spin_of_top(const Mat3& inertia, int axis, const Vec3& angular, double dt) {
+  const double along = inertia(axis, axis), across = inertia((axis + 1) % 3, (axis + 1) % 3);
+  return exp_map(Vec3::Unit(axis) * ((along / across - 1) * angular[axis] * dt)) * angular;
+}
 
 Vec3 bounded_spin(const Mat3& inertia, double most, const Vec3& angular) {
   const double energy = 0.5 * angular.dot(inertia * angular);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "state/body.h"
 
 namespace tweenfall::forces {
@@ -37,6 +39,14 @@ struct Spin {
   if (!body.aligned()) return inverse * (torque - angular.cross(inertia * angular));
   return inverse.diagonal().cwiseProduct(torque - angular.cross(inertia.diagonal().cwiseProduct(angular)));
 }
+
+/// The axis of a symmetric top: the moments about all axes perpendicular to it are equal, and no product of inertia is
+/// left. None for other bodies.
+[[nodiscard]] std::optional<int> axis_of_top(const Mat3& inertia);
+
+/// The angular velocity of a top after `dt` seconds without torque, body axes: the part along its axis stays, and the
+/// rest goes around it evenly. Source: Goldstein, Poole, Safko, Classical Mechanics, 2002, section 5.6.
+[[nodiscard]] Vec3 spin_of_top(const Mat3& inertia, int axis, const Vec3& angular, double dt);
 
 /// An angular velocity, reduced so that its energy is at most `most` joules: inertia in world axes turns with its
 /// body, so that a spin which is kept through a large turn may gain energy.

@@ -94,27 +94,46 @@ struct FigureFactors : FigureSpeeds<Register> {
     return with_push(sum, b.inverse_mass, joint, rows, row, true, joint, rows, row, true);
   }
 
+  /// Finds which rows of a joint are `in`.
+  TWEENFALL_LANES static void choose_rows(Figures& figures, std::uint32_t place) {
+    FigureJoint& joint = figures.joints[place];
+    const FigureRow* rows = rows_of(figures, place);
+    std::uint8_t count = joint.holds;
+    for (std::uint8_t row = 0; row < count; ++row) in_of(joint).slots[row] = row;
+    for (std::uint8_t row = joint.holds; row < joint.count; ++row)
+      if (any(rows[row].in)) in_of(joint).slots[count++] = row;
+    in_of(joint).count = count;
+  }
+  /// There is room for all rows, so that none has to move when others come in.
   TWEENFALL_LANES static void lay_out(Figures& figures) {
     std::uint32_t value = 0, block = 0;
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
-      FigureJoint& joint = figures.joints[place];
-      const FigureRow* rows = rows_of(figures, place);
-      std::uint8_t count = joint.holds;
-      for (std::uint8_t row = 0; row < count; ++row) in_of(joint).slots[row] = row;
-      for (std::uint8_t row = joint.holds; row < joint.count; ++row)
-        if (any(rows[row].in)) in_of(joint).slots[count++] = row;
-      in_of(joint).count = count;
-      in_of(joint).value = value;
-      in_of(joint).diagonal = block;
+      const std::uint32_t count = figures.joints[place].count;
+      FigureRowsIn& in = in_of(figures.joints[place]);
+      in.changed = true;
+      in.value = value;
+      in.diagonal = block;
       value += count;
-      block += std::uint32_t{count} * count;
-    }
-    for (std::uint32_t place = 0; place < figures.joint_count; ++place)
+      block += count * count;
       for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n) {
         figures.links[n].blocks[part] = block;
-        block +=
-            std::uint32_t{in_of(figures.joints[figures.links[n].place]).count} * in_of(figures.joints[place]).count;
+        block += figures.joints[figures.links[n].place].count * count;
       }
+    }
+  }
+  /// What a change of some joints makes stale.
+  TWEENFALL_LANES static void spread_changes(Figures& figures) {
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place)
+      in_of(figures.joints[place]).stale = in_of(figures.joints[place]).changed;
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      if (!in_of(figures.joints[place]).stale) continue;
+      for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n)
+        in_of(figures.joints[figures.links[n].place]).stale = true;
+    }
+  }
+  /// Whether a joint's effect on a later one has to be found anew.
+  TWEENFALL_LANES static bool stale_between(const FigureJoint& joint, const FigureJoint& later) {
+    return in_of(joint).stale || in_of(later).changed;
   }
 
   /// How an impulse along one row changes the speed of another, through a body that both act on.
@@ -194,6 +213,10 @@ struct FigureFactors : FigureSpeeds<Register> {
 
   TWEENFALL_LANES static void fill(Figures& figures, std::uint32_t place) {
     FigureJoint& joint = figures.joints[place];
+    bool fits = !in_of(joint).stale;
+    for (std::uint32_t n = figures.firsts[place]; fits && n < figures.firsts[place + 1]; ++n)
+      fits = !in_of(figures.joints[figures.links[n].place]).changed;
+    if (fits) return;
     FigureRow* rows = rows_of(figures, place);
     const FigureBody &a = figures.bodies[joint.a], &b = figures.bodies[joint.b];
     const FigureRowsIn& in = in_of(joint);
@@ -203,13 +226,14 @@ struct FigureFactors : FigureSpeeds<Register> {
     if (points != 0) {
       spins_of_point(a.inverse_inertia, joint.arm_a, spins_a);
       spins_of_point(b.inverse_inertia, joint.arm_b, spins_b);
-      fill_point(joint, rows, Number(a.inverse_mass) + b.inverse_mass, spins_a, spins_b, diagonal);
+      if (in.stale) fill_point(joint, rows, Number(a.inverse_mass) + b.inverse_mass, spins_a, spins_b, diagonal);
     }
     for (std::uint32_t i = points; i < count; ++i) {
       FigureRow& row = rows[in.slots[i]];
       const Vector turn_a = row.turn_a, turn_b = row.turn_b;
       spins_a[i] = a.inverse_inertia * turn_a;
       spins_b[i] = b.inverse_inertia * turn_b;
+      if (!in.stale) continue;
       for (std::uint32_t k = 0; k <= i; ++k) {
         Number sum = dot(turn_a, spins_a[k]) + dot(turn_b, spins_b[k]);
         sum = with_push(sum, a.inverse_mass, joint, rows, in.slots[i], false, joint, rows, in.slots[k], false);
@@ -230,6 +254,7 @@ struct FigureFactors : FigureSpeeds<Register> {
     for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n) {
       const FigureLink& link = figures.links[n];
       const FigureJoint& other = figures.joints[link.place];
+      if (!stale_between(joint, other)) continue;
       Lanes* block = figures.blocks + link.blocks[part];
       bool first = true;
       for (const bool by_b : {false, true})
@@ -246,7 +271,7 @@ struct FigureFactors : FigureSpeeds<Register> {
 
   template <std::uint32_t known>
   TWEENFALL_LANES static void factor_diagonal(Figures& figures, std::uint32_t place) {
-    const FigureJoint& joint = figures.joints[place];
+    FigureJoint& joint = figures.joints[place];
     const FigureRow* rows = rows_of(figures, place);
     const std::uint32_t count = known != 0 ? known : in_of(joint).count;
     Lanes* block = figures.blocks + in_of(joint).diagonal;
@@ -265,7 +290,7 @@ struct FigureFactors : FigureSpeeds<Register> {
         its.put(block[i * count + i]);
         redundant = greater(redundant, Number(1.0) - one_if(its > nothing()));
       }
-    figures.parts[part].silent = figures.parts[part].silent || any(redundant);
+    in_of(joint).silent = any(redundant);
   }
 
   /// Eliminates a joint: subtracts its effect from the later ones. @param known  rows of the joint, or 0 for any
@@ -278,9 +303,10 @@ struct FigureFactors : FigureSpeeds<Register> {
     const Lanes* diagonal = figures.blocks + in_of(joint).diagonal;
     const std::uint32_t begin = figures.firsts[place], end = figures.firsts[place + 1];
     for (std::uint32_t n = begin; n < end; ++n) {
+      const FigureJoint& later = figures.joints[figures.links[n].place];
+      if (!stale_between(joint, later)) continue;
       Lanes* block = figures.blocks + figures.links[n].blocks[part];
-      for (std::uint32_t i = 0; i < in_of(figures.joints[figures.links[n].place]).count; ++i)
-        solve_lower(diagonal, block + i * columns, columns);
+      for (std::uint32_t i = 0; i < in_of(later).count; ++i) solve_lower(diagonal, block + i * columns, columns);
     }
     for (std::uint32_t n = begin; n < end; ++n) {
       const std::uint32_t column = figures.links[n].place;
@@ -290,6 +316,9 @@ struct FigureFactors : FigureSpeeds<Register> {
       for (std::uint32_t p = n; p < end; ++p) {
         const Lanes* left = figures.blocks + figures.links[p].blocks[part];
         Lanes* into = figures.blocks + in_of(figures.joints[column]).diagonal;
+        if (!(p == n ? in_of(figures.joints[column]).stale
+                     : stale_between(figures.joints[column], figures.joints[figures.links[p].place])))
+          continue;
         if (p > n) {
           while (figures.links[target].place != figures.links[p].place) ++target;
           into = figures.blocks + figures.links[target].blocks[part];
@@ -310,14 +339,26 @@ struct FigureFactors : FigureSpeeds<Register> {
     }
   }
 
+  /// Finds the factors that are not known, with the same bits as if all were found.
   TWEENFALL_LANES static void factor(Figures& figures) {
-    if (!figures.parts[part].stale) return;
-    figures.parts[part].stale = figures.parts[part].silent = false;
-    lay_out(figures);
+    FigurePart& its = figures.parts[part];
+    if (!its.stale && !its.changed) return;
+    if (its.stale) lay_out(figures);
+    its.stale = its.changed = its.silent = false;
+    spread_changes(figures);
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place)
+      if (in_of(figures.joints[place]).changed) choose_rows(figures, place);
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) fill(figures, place);
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
-      TWEENFALL_OF_ROWS(in_of(figures.joints[place]).count, factor_diagonal, figures, place)
-      TWEENFALL_OF_ROWS(in_of(figures.joints[place]).count, eliminate, figures, place)
+      const std::uint8_t count = in_of(figures.joints[place]).count;
+      if (in_of(figures.joints[place]).stale) {
+        TWEENFALL_OF_ROWS(count, factor_diagonal, figures, place)
+      }
+      TWEENFALL_OF_ROWS(count, eliminate, figures, place)
+    }
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      in_of(figures.joints[place]).changed = false;
+      its.silent = its.silent || in_of(figures.joints[place]).silent;
     }
   }
 

@@ -113,6 +113,13 @@ struct FigureWork : FigureWriting<Register> {
     return bounded;
   }
 
+  /// @param changed  lanes in which a row of the joint came in or left
+  TWEENFALL_LANES static void note_change(Figures& figures, std::uint32_t place, const Number& changed) {
+    if (!any(changed)) return;
+    in_of(figures.joints[place]).changed = true;
+    figures.parts[part].changed = true;
+  }
+
   /// Lets in rows beside whose bounds would be passed. @return lanes in which any came in
   TWEENFALL_LANES static Number admit(Figures& figures, const Number& live, bool moving) {
     Number changed = nothing();
@@ -121,6 +128,7 @@ struct FigureWork : FigureWriting<Register> {
       FigureRow* rows = rows_of(figures, place);
       if (joint.holds == joint.count) continue;
       const Ends ends = ends_of(figures, joint);
+      Number entered = nothing();
       for (std::uint32_t i = joint.holds; i < joint.count; ++i) {
         FigureRow& row = rows[i];
         const Number rest = lack_of(row, speed_of(row, joint.turning[i], ends), moving);
@@ -128,10 +136,11 @@ struct FigureWork : FigureWriting<Register> {
         const Number down = one_if(rest < Number(-passable)) * one_if(row.impulse > Number(row.low));
         const Number enters = live * (Number(row.present) - Number(row.in)) * (up + down);
         (Number(row.in) + enters).put(row.in);
-        changed = greater(changed, enters);
+        entered = greater(entered, enters);
       }
+      note_change(figures, place, entered);
+      changed = greater(changed, entered);
     }
-    figures.parts[part].stale = figures.parts[part].stale || any(changed);
     return changed;
   }
 
@@ -153,10 +162,10 @@ struct FigureWork : FigureWriting<Register> {
         apply(figures, joint, i, row, change);
         select(leaves > nothing(), within, impulse).put(row.impulse);
         (Number(row.in) - leaves).put(row.in);
+        note_change(figures, place, leaves);
         changed = greater(changed, leaves);
       }
     }
-    figures.parts[part].stale = figures.parts[part].stale || any(changed);
     return changed;
   }
 

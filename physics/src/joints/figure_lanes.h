@@ -57,6 +57,9 @@ constexpr std::size_t most_parts = 2;
 /// The rows of a joint that are `in` in some lane of a part.
 struct FigureRowsIn {
   std::uint8_t count = 0;
+  bool changed = true;  ///< since the factors were found, in some lane
+  bool stale = true;    ///< its factors are to be found anew: it changed, or a joint eliminated before it
+  bool silent = false;  ///< some row is redundant
   std::array<std::uint8_t, state::Joint::most_rows> slots{};
   std::uint32_t value = 0, diagonal = 0;  ///< index of the first ones in their arrays
 };
@@ -85,8 +88,9 @@ struct FigureLink {
 
 /// The factors of a part.
 struct FigurePart {
-  bool stale = true;    ///< they belong to other rows
-  bool silent = false;  ///< some row is redundant
+  bool stale = true;     ///< all of them belong to other rows
+  bool changed = false;  ///< some joint's do
+  bool silent = false;   ///< some row is redundant
 };
 
 /// Up to eight figures.

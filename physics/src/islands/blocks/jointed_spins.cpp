@@ -14,8 +14,9 @@ constexpr double turn_of_a_piece = 0.15;
 
 }  // namespace
 
-/// By Euler's equations and the classic Runge-Kutta method.
+/// By Euler's equations and the classic Runge-Kutta method; most limbs are tops, of which more is known.
 Vec3 JointedSpins::after_half(const Spin& spin, const state::Body& body, const Vec3& start) {
+  if (spin.top) return forces::spin_of_top(body.mass().inertia, *spin.top, start, spin.half);
   const auto rate = [&](const Vec3& at) { return forces::rate_of_spin(body, spin.torque, at); };
   const double turn = start.norm() * spin.half;
   const int pieces = std::max(1, static_cast<int>(std::ceil(turn / turn_of_a_piece)));
@@ -37,6 +38,7 @@ Vec3 JointedSpins::begin_sub_step(std::size_t place, const state::Body& body, co
   spin.half = 0.5 * h;
   spin.rotation = rotation;
   spin.torque = rotation.conjugate() * load.torque;
+  spin.top = load.torque == Vec3::Zero() ? forces::axis_of_top(body.mass().inertia) : std::nullopt;
   spin.bent = Vec3::Zero();
   // The body axes at the middle and at the instant between show the same spin, as it turns the body about itself.
   spin.at_impulse = after_half(spin, body, rotation.conjugate() * angular);

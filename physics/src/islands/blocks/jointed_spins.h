@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "forces/free_flight.h"
@@ -38,6 +39,7 @@ class JointedSpins {
     double half = 0;            ///< half of a sub-step, s; 0: nothing is followed
     Quat rotation{1, 0, 0, 0};  ///< where impulses act
     Vec3 torque{0, 0, 0};       ///< body axes, as all below, N m
+    std::optional<int> top;     ///< its axis, if it is a symmetric top without torque
     Vec3 at_impulse{0, 0, 0};   ///< rad/s
     Vec3 flown{0, 0, 0};        ///< at the end if nothing acts
     Vec3 bent{0, 0, 0};         ///< by how much the part from impulses has been turned along
