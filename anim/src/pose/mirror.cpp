@@ -171,9 +171,13 @@ Mirror::Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const 
     joint.after =
         pose::tidied(Quat(pose::reflected(rest[joint.partner].rotation, normal_).conjugate() * rest[i].rotation));
 
+    if (parent != no_node) {
+      joint.own_signs = pose::signs_of(rest[parent].scale);
+      joint.partner_signs = pose::signs_of(rest[other].scale);
+    }
     const Pose &own = stance.empty() ? nodes[i].rest : stance[i],
                &theirs = stance.empty() ? nodes[joint.partner].rest : stance[joint.partner];
-    joint.offset = own.position - joint.before * pose::reflected(theirs.position, normal_);
+    joint.offset = own.position - mirrored_way(joint, theirs.position);
     const double size = std::max(own.position.cwiseAbs().maxCoeff(), theirs.position.cwiseAbs().maxCoeff());
     for (int k = 0; k < 3; ++k)
       if (std::abs(joint.offset[k]) <= 1e-12 * size) joint.offset[k] = 0;
@@ -193,16 +197,25 @@ Mirror::Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const 
   }
 }
 
+Vec3 Mirror::mirrored_way(const Joint& joint, const Vec3& way) const noexcept {
+  return joint.own_signs.cwiseProduct(joint.before *
+                                      pose::reflected(Vec3(joint.partner_signs.cwiseProduct(way)), normal_));
+}
+
 Motion Mirror::mirrored(const Joint& joint, const Motion& partner) const noexcept {
+  // What hangs below scales that mirror is turned the other way round there.
+  const Vec3 own = pose::reflection_of(joint.own_signs), theirs = pose::reflection_of(joint.partner_signs);
   const auto along_axes = [&](const Vec3& scale) -> Vec3 {
     return joint.sizes.cwiseProduct(Vec3(scale[joint.axes[0]], scale[joint.axes[1]], scale[joint.axes[2]]));
   };
   Motion result;
-  result.pose.position = joint.before * pose::reflected(partner.pose.position, normal_) + joint.offset;
-  result.pose.rotation = joint.before * pose::reflected(partner.pose.rotation, normal_) * joint.after;
+  result.pose.position = mirrored_way(joint, partner.pose.position) + joint.offset;
+  result.pose.rotation = pose::reflected_by(
+      own, joint.before * pose::reflected(pose::reflected_by(theirs, partner.pose.rotation), normal_) * joint.after);
   result.pose.scale = along_axes(partner.pose.scale);
-  result.twist.linear = joint.before * pose::reflected(partner.twist.linear, normal_);
-  result.twist.angular = joint.before * pose::reflected_turn(partner.twist.angular, normal_);
+  result.twist.linear = mirrored_way(joint, partner.twist.linear);
+  result.twist.angular =
+      own.cwiseProduct(joint.before * pose::reflected_turn(Vec3(theirs.cwiseProduct(partner.twist.angular)), normal_));
   result.scale_rate = along_axes(partner.scale_rate);
   return result;
 }

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "pose/reflection.h"
+
 namespace tweenfall::pose {
 
 /// The pose of each node, from given local poses; rotations are of unit length. Empty `local`: the nodes' rest poses.
@@ -17,7 +19,7 @@ namespace tweenfall::pose {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Pose own = local.empty() ? nodes[i].rest : local[i];
     own.rotation = normalized(own.rotation);
-    poses[i] = nodes[i].parent == no_node ? own : compose(poses[nodes[i].parent], own);
+    poses[i] = nodes[i].parent == no_node ? own : compose_reflected(poses[nodes[i].parent], own);
     poses[i].rotation = normalized(poses[i].rotation);
   }
   return poses;

@@ -129,7 +129,9 @@ class Retarget::Maker {
     Pose rest = target_[i].rest;
     rest.rotation = normalized(rest.rotation);
     const bool mapped = map_.source_of[i] != no_node;
-    standing_.push_back(mapped ? target_stance_[i] : parent == no_node ? rest : compose(standing_[parent], rest));
+    standing_.push_back(mapped              ? target_stance_[i]
+                        : parent == no_node ? rest
+                                            : pose::compose_reflected(standing_[parent], rest));
   }
 
   void place(Retarget& result, std::size_t i) {
@@ -162,9 +164,15 @@ class Retarget::Maker {
     const Pose none;
     const Pose &above = parent == no_node ? none : standing_[parent],
                &source_above = source_top == no_node ? none : source_stance_[source_top];
-    joint.before = pose::tidied(Quat(above.rotation.conjugate() * turn_ * source_above.rotation));
-    joint.after = pose::tidied(
+    // Below scales that mirror, Q is Fv Qc Fv with the chain's own rotations Qc and the signs Fv of the scale of its
+    // top, and the local rotation is F (...) F with the signs F of the parent's.
+    const Quat before = pose::tidied(Quat(above.rotation.conjugate() * turn_ * source_above.rotation));
+    const Quat after = pose::tidied(
         Quat(source_stance_[joint.source].rotation.conjugate() * turn_.conjugate() * standing_[i].rotation));
+    const Vec3 own = pose::reflection_of(above.scale);
+    joint.before = pose::reflected_by(own, before);
+    joint.after = pose::reflected_by(own, after);
+    joint.reflection = own.cwiseProduct(pose::reflection_of(source_above.scale));
     if (!map_.moves[i] && top != no_node) return;
     movers_.push_back(i);
     Motion stance, base;
@@ -173,7 +181,7 @@ class Retarget::Maker {
     joint.chain_place = relative_to(base, stance).pose.position;
     if (!settings_.target_stance.empty() && settings_.target_stance.size() == target_.size())
       joint.rest.pose.position = settings_.target_stance[i].position;
-    joint.way = joint.before.toRotationMatrix();
+    joint.way = before.toRotationMatrix();
     for (int k = 0; k < 3; ++k) {
       joint.way.col(k) *= source_above.scale[k];
       if (above.scale[k] != 0) joint.way.row(k) /= above.scale[k];
@@ -228,9 +236,10 @@ void Retarget::apply(std::span<const Motion> source, std::span<Motion> out) cons
     result = joint.rest;
     if (joint.source == no_node) continue;
     Motion chain = source[chains_[joint.chain]];
-    for (std::size_t k = joint.chain + 1; k < joint.chain_end; ++k) chain = compose(chain, source[chains_[k]]);
-    result.pose.rotation = joint.before * chain.pose.rotation * joint.after;
-    result.twist.angular = joint.before * chain.twist.angular;
+    for (std::size_t k = joint.chain + 1; k < joint.chain_end; ++k)
+      chain = pose::compose_reflected(chain, source[chains_[k]]);
+    result.pose.rotation = joint.before * pose::reflected_by(joint.reflection, chain.pose.rotation) * joint.after;
+    result.twist.angular = joint.before * joint.reflection.cwiseProduct(chain.twist.angular);
     result.pose.position += joint.way * Vec3(chain.pose.position - joint.chain_place);
     result.twist.linear = joint.way * chain.twist.linear;
   }

@@ -51,8 +51,11 @@ class Mirror {
     Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before * (partner's, mirrored) * after
     Vec3 offset{0, 0, 0};                        ///< its position at rest minus the mirrored one
     std::array<int, 3> axes{0, 1, 2};            ///< the partner's axes nearest to the images of its own
+    Vec3 own_signs{1, 1, 1};                     ///< of the scales above it at rest, which mirror what is below
+    Vec3 partner_signs{1, 1, 1};                 ///< ... and above its partner
     Vec3 sizes{1, 1, 1};                         ///< ratios of its scale to the partner's along these axes
   };
+  [[nodiscard]] Vec3 mirrored_way(const Joint& joint, const Vec3& way) const noexcept;
   [[nodiscard]] Motion mirrored(const Joint& joint, const Motion& partner) const noexcept;
 
   std::vector<Joint> joints_;

@@ -8,7 +8,7 @@
 /// heights; all other joints keep the lengths of their own bones. Scales are the target's at rest. Rates are exact.
 ///
 /// If the two rest poses differ (arms out, arms down), poses that match are given as stances. Scales of the rest poses
-/// are taken into account if they are uniform.
+/// are taken into account if they are uniform up to their signs: joints may be mirrored, as by a scale of -1, 1, 1.
 
 #include <tweenfall/anim/hierarchy.h>
 
@@ -56,6 +56,7 @@ class Retarget {
     std::size_t source = no_node;
     std::size_t chain = 0, chain_end = 0;        ///< the source's joints down from the source of the next mapped parent
     Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before * Q * after, with Q the chain's
+    Vec3 reflection{1, 1, 1};                    ///< by which Q is mirrored first, component by component
     Vec3 chain_place{0, 0, 0};                   ///< position of the chain's end at rest
     Mat3 way = Mat3::Zero();                     ///< maps the displacement of the chain's end to its own
   };
