@@ -15,8 +15,15 @@ const Setting& setting_at(const Record<Setting>& settings, double time, Side sid
   return next == settings.begin() ? settings.front() : *std::prev(next);
 }
 
+/// Whether the value that poses see has come to the one that was set. After so many half-lives less than 2^-58 of the
+/// way is left, which is less than the rounding of the values on it.
+bool has_arrived(const Setting& setting, double half_life, double time) noexcept {
+  constexpr double half_lives = 32;
+  return (setting.offset == 0 && setting.rate == 0) || time - setting.time >= half_lives * half_life;
+}
+
 Sample<double> sample_of(const Setting& setting, double half_life, double time) noexcept {
-  if (setting.offset == 0 && setting.rate == 0) return {setting.value, 0, 0};
+  if (has_arrived(setting, half_life, time)) return {setting.value, 0, 0};
   Sample<double> sample = SpringDecay{setting.offset, setting.rate, half_life}.sample(time - setting.time);
   sample.value += setting.value;
   return sample;
@@ -162,6 +169,14 @@ Sample<double> sample_of(const Log& log, const GraphDescription& description, st
   if (described.curve) return described.curve->sample(time, side);
   const Sight sight = seen(log, time, side);
   return sample_of(setting_at(log.settings[parameter], sight.time, sight.side), described.half_life, time);
+}
+
+bool flows(const Log& log, const GraphDescription& description, std::size_t parameter, double time,
+           Side side) noexcept {
+  const GraphParameter& described = description.parameters[parameter];
+  if (described.curve) return true;
+  const Sight sight = seen(log, time, side);
+  return !has_arrived(setting_at(log.settings[parameter], sight.time, sight.side), described.half_life, time);
 }
 
 namespace {

@@ -181,5 +181,8 @@ void forget_after(Log& log, const GraphDescription& description, double time);
 /// The value that poses see.
 [[nodiscard]] Sample<double> sample_of(const Log& log, const GraphDescription& description, std::size_t parameter,
                                        double time, Side side) noexcept;
+/// Whether that may change from a time until the next setting: it has keys, or has not come to what was set.
+[[nodiscard]] bool flows(const Log& log, const GraphDescription& description, std::size_t parameter, double time,
+                         Side side) noexcept;
 
 }  // namespace tweenfall::graphs

@@ -73,7 +73,7 @@ class Layered : public Operation {
       const Layer& layer = layers_[i];
       const double reach = layer.mask[node];
       if (layer.adds || reach == 0) continue;
-      if (layer.weight.flows()) out.flow = true;
+      if (layer.weight.flows(log, moment.time, moment.side)) out.flow = true;
       const Sample<double> own =
           product({reach, 0, 0}, as_share(layer.weight.sample(log, moment.time, moment.side), moment.side));
       if (is_nothing(own)) continue;

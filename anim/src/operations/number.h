@@ -28,10 +28,9 @@ class Number {
     return {constant_, 0, 0};
   }
 
-  /// Whether it may change between settings.
-  [[nodiscard]] bool flows() const noexcept {
-    return curve_ || (description_ && (description_->parameters[parameter_].curve ||
-                                       description_->parameters[parameter_].half_life > 0));
+  /// Whether it may change from a time until the next setting.
+  [[nodiscard]] bool flows(const Log& log, double time, Side side) const noexcept {
+    return curve_ || (description_ && graphs::flows(log, *description_, parameter_, time, side));
   }
   /// The first time after `after` at which it is set; infinity for none.
   [[nodiscard]] double next_setting(const Log& log, double after) const noexcept {

@@ -56,8 +56,8 @@ double SpaceWeights::first_unseen(const Log& log) const noexcept {
   return first;
 }
 
-bool SpaceWeights::flows() const noexcept {
-  return std::ranges::any_of(by_, [](const Number& number) { return number.flows(); });
+bool SpaceWeights::flows(const Log& log, double time) const noexcept {
+  return std::ranges::any_of(by_, [&](const Number& number) { return number.flows(log, time, Side::out); });
 }
 
 /// From one stop to the next, with the course of the shares until then as if there were no more settings, so that later
@@ -68,11 +68,13 @@ class Phase::Step {
       : phase_(phase), sync_(phase.sync_), from_(from), size_(phase.weights_.size()) {
     std::array<Sample<double>, most_blended> first, last;
     phase.weights_.sample(log, from.time, Side::out, {first.data(), size_});
-    const double end = phase.next_beat(start, from.time);
+    const double end = phase.next_beat(log, start, from.time);
     if (std::isfinite(end)) {
       length_ = end - from.time;
       const Blinkers blinkers(log, std::min(log.until, from.time));
       phase.weights_.sample(log, end, Side::in, {last.data(), size_});
+    } else {
+      from_.place.haste = 0;  // weights that stay have no step in which it could decay
     }
     // A cubic lies between its four Bezier values: while none of them is below 0, no share is.
     double bend = 1;
@@ -170,8 +172,8 @@ class Phase::Step {
 Phase::Phase(MarkerSync sync, SpaceWeights weights, std::size_t number)
     : sync_(std::move(sync)), weights_(std::move(weights)), number_(number) {}
 
-double Phase::next_beat(double start, double after) const noexcept {
-  if (weights_.flows()) {
+double Phase::next_beat(const Log& log, double start, double after) const noexcept {
+  if (weights_.flows(log, after)) {
     const double passed = std::floor((after - start) * stops_per_second);
     for (double count = std::max(passed, 0.0); count <= passed + 2; ++count)
       if (const double stop = start + count / stops_per_second; stop > after) return stop;
@@ -180,7 +182,7 @@ double Phase::next_beat(double start, double after) const noexcept {
 }
 
 double Phase::next_stop(const Log& log, double start, double after) const noexcept {
-  return std::min(weights_.next_setting(log, after), next_beat(start, after));
+  return std::min(weights_.next_setting(log, after), next_beat(log, start, after));
 }
 
 Phase::Stop Phase::last_stop(const Log& log, double start, double time, Side side) const noexcept {

@@ -24,8 +24,8 @@ class SpaceWeights {
   [[nodiscard]] double next_setting(const Log& log, double after) const noexcept;
   /// The first setting that is hidden while looking ahead; infinity for none.
   [[nodiscard]] double first_unseen(const Log& log) const noexcept;
-  /// Whether the weights may change between settings.
-  [[nodiscard]] bool flows() const noexcept;
+  /// Whether the weights may change from a time until the next setting.
+  [[nodiscard]] bool flows(const Log& log, double time) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
  private:
@@ -65,7 +65,7 @@ class Phase {
   /// The last stop from `start` up to a time; at that time itself only for `Side::out`.
   [[nodiscard]] Stop last_stop(const Log& log, double start, double time, Side side) const noexcept;
   /// The next stop without a setting.
-  [[nodiscard]] double next_beat(double start, double after) const noexcept;
+  [[nodiscard]] double next_beat(const Log& log, double start, double after) const noexcept;
   [[nodiscard]] double next_stop(const Log& log, double start, double after) const noexcept;
   [[nodiscard]] double way(std::size_t clip, double duration, double phase) const noexcept;
 

@@ -167,6 +167,28 @@ TEST_CASE("poses follow a parameter that was set without a jump in value or rate
   CHECK(near(player.parameter("speed").value, -2.0, 1e-9));
 }
 
+TEST_CASE("a gliding parameter arrives at what was set after 32 half-lives, without a jump that could be seen") {
+  const double half_life = 0.25, arrival = 0.2 + 32 * half_life;
+  GraphDescription described = rich();
+  described.parameters[0].half_life = half_life;
+  described.parameters[0].start = 3;
+  for (const double goal : {1.0, -2.0, 0.0, 1e9, -1e-9}) {
+    GraphPlayer player(graph_of(described));
+    player.seek(0.2);
+    player.set("speed", goal);
+    player.seek(0.21);
+    player.set("speed", goal);  // in full flight
+    player.seek(std::nextafter(arrival + 0.01, 0.0));
+    const double way = std::abs(3 - goal);
+    const Sample<double> last = player.parameter("speed");
+    CHECK(std::abs(last.value - goal) <= 1e-17 * way + 1.2e-16 * std::abs(goal));
+    CHECK(std::abs(last.rate) <= 1e-16 * way);
+    player.seek(std::nextafter(arrival + 0.01, 9.0));
+    CHECK(player.parameter("speed").value == goal);
+    CHECK(player.parameter("speed").rate == 0);
+  }
+}
+
 TEST_CASE("blends and layers have the exact rate of what they show, those of their weights included") {
   const Curve<double> weight =
       keyed_curve<double>({{.time = 0, .value = 0.2, .ease = Ease::smooth()}, {.time = 6, .value = 0.9}});

@@ -3,6 +3,7 @@
 #include "graph_support.h"
 
 #include <cmath>
+#include <numbers>
 
 using namespace tweenfall;
 using namespace tweenfall::test;
@@ -46,10 +47,11 @@ Clip walker(const std::string& name, const Vec3& turn, const Vec3& way, double d
 const Vec3 ahead(0, 0, 1.4), running(0, 0, 3), around(0, 0.7, 0);
 
 std::shared_ptr<const std::vector<Clip>> walkers() {
-  return std::make_shared<const std::vector<Clip>>(std::vector<Clip>{
-      walker("walk", {0, 0, 0}, ahead, 1), walker("run", {0, 0, 0}, running, 0.7), walker("arc", around, ahead, 1),
-      walker("quick", {0, 0, 0}, ahead, 0.1), walker("quicker", 2 * around, running, 0.1),
-      walker("buzz", {0, 0, 0}, 1e-3 * ahead, 1e-9), moving("wave", 7, LoopMode::repeat)});
+  return std::make_shared<const std::vector<Clip>>(
+      std::vector<Clip>{walker("walk", {0, 0, 0}, ahead, 1), walker("run", {0, 0, 0}, running, 0.7),
+                        walker("arc", around, ahead, 1), walker("quick", {0, 0, 0}, ahead, 0.1),
+                        walker("quicker", 2 * around, running, 0.1), walker("buzz", {0, 0, 0}, 1e-3 * ahead, 1e-9),
+                        walker("stroll", {0, 0, 0}, 0.5 * ahead, 1), moving("wave", 7, LoopMode::repeat)});
 }
 
 RootMotionPose travelling(std::string base, std::string onto = {}) {
@@ -183,6 +185,25 @@ TEST_CASE("a way keeps its velocity where a gliding parameter is set, wherever i
       error = std::max(error, rate_error(player, inputs[i].time + 0.0037 * part, 2e-6));
   MESSAGE("jumps of rates up to " << most.rate << ", rates within " << error);
   CHECK(error < 1e-7);
+}
+
+TEST_CASE("a way whose weights glide goes as far as their integral, and from their arrival on lap by lap") {
+  const double half_life = 0.3, set = 1.1, goal = 0.6, y = 2 * std::numbers::ln2 / half_life;
+  for (const bool synced : {false, true}) {
+    SpacePose gaits{.by = {ByParameter{"speed"}}, .entries = {{"walk", {0, 0}}, {"stroll", {1, 0}}}};
+    if (synced) gaits.sync = std::string();
+    GraphPlayer player =
+        travel_of({{"gaits", gaits}}, {{.name = "speed", .half_life = half_life}}, {{set, "speed", goal}});
+    // A million seconds of 480 steps each would take hours.
+    for (const double time : {0.7, 2.3, 9.0, 12.0, 1e6}) {
+      CAPTURE(time);
+      const double since = std::max(0.0, time - set);
+      const double weight = goal * (since - 2 / y + (2 / y + since) * std::exp(-y * since));
+      const double way = 1.4 * time + (0.7 - 1.4) * weight;
+      CHECK(near(carried(player, time).position, Vec3(0, 0, way), time < 100 ? 1e-7 : 1e-6));
+      CHECK(rate_error(player, time + 0.01) < (time < 100 ? 1e-6 : 1e-2));
+    }
+  }
 }
 
 TEST_CASE("a way that fades in goes as far as the integral of its weight") {
