@@ -99,6 +99,21 @@ TEST_CASE("notes have places, are printed by every verb, and leave a document va
   CHECK(found["files"][0]["problems"][0]["line"] == 2);
 }
 
+TEST_CASE("a track of one's own that is of another kind in another clip is told where it stands") {
+  const Folder folder;
+  folder.write("kinds.json",
+               "{\"tweenfall\": 1, \"nodes\": {\"hips\": {}}, \"clips\": {\n"
+               "  \"walk\": {\"tracks\": {\"hips.effort\": [[0, 1], [1, 2]], \"hips.glow\": [[0, \"#fff\"]]}},\n"
+               "  \"run\": {\"tracks\": {\"hips.glow\": [[0, \"#000\"]],\n"
+               "    \"hips.effort\": [[0, [1, 2, 3]]]}}}}\n");
+  const Ran ran = folder.run("check kinds.json");
+  CHECK(ran.code == 0);
+  CHECK(
+      ran.err.starts_with("kinds.json:4:5: note: \"hips.effort\" is a vector here and a number in the clip \"walk\": "
+                          "where clips are mixed, this one counts as without it"));
+  CHECK(ran.err.find("note", 20) == std::string::npos);
+}
+
 TEST_CASE("notes are told beside errors too, after them, and are not counted with them") {
   const Folder folder;
   folder.write("both.json",

@@ -26,6 +26,9 @@ GraphGround ground_of(const Animation& plays, const std::shared_ptr<GroundJumps>
     return first;
   };
   const auto look = [plays](std::size_t node, double time, Side side) { return plays.look(node, time, side); };
+  const auto user_value = [plays](std::string_view track, double time, Side side) {
+    return plays.user_value(track, time, side);
+  };
   const auto next_jump = [plays, changes, jumps, own = std::make_shared<GroundJumps>()](double after, double until) {
     std::call_once(own->once, [&] {
       std::call_once(jumps->once, [&] { jumps->search = JumpSearch(plays, moves_its_node); });
@@ -36,7 +39,7 @@ GraphGround ground_of(const Animation& plays, const std::shared_ptr<GroundJumps>
     if (change != changes.end()) first = std::min(first, *change);
     return first <= until ? std::optional(first) : std::nullopt;
   };
-  return {pose, next_event, look, next_jump};
+  return {pose, next_event, look, user_value, next_jump};
 }
 
 }  // namespace graphs

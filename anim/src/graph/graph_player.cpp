@@ -7,6 +7,7 @@
 #include "graph/log_bytes.h"
 #include "graph/look.h"
 #include "machine/course.h"
+#include "pose/clip_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -200,6 +201,17 @@ NodeLook GraphPlayer::look_at(std::size_t node, double time, Side side) {
   if (!graph_->compiled().looks(node)) return below;
   know(time);
   return graphs::look_of(run_->log, *graph_, node, {time, side, 0}, below);
+}
+
+UserValue GraphPlayer::user_value_at(std::string_view track, double time, Side side) {
+  graphs::require_time(time, 0);
+  const Track& named = pose::user_track_named(graph_->clips(), track);
+  UserValue below =
+      run_->ground.user_value ? run_->ground.user_value(track, time, side) : pose::nothing_of(named.curve);
+  const auto has_it = [&](const auto& clip) { return clip->bound->user_track(track) != nullptr; };
+  if (std::ranges::none_of(graph_->compiled().clips, has_it)) return below;
+  know(time);
+  return graphs::user_value_of(run_->log, *graph_, track, {time, side, 0}, below);
 }
 
 Sample<double> GraphPlayer::parameter(std::string_view name) const {

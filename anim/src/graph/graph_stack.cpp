@@ -34,8 +34,11 @@ struct GraphStack::Runner {
       return first;
     };
     const auto look = [&player](std::size_t node, double time, Side side) { return player.look_at(node, time, side); };
+    const auto user_value = [&player](std::string_view track, double time, Side side) {
+      return player.user_value_at(track, time, side);
+    };
     const auto next_jump = [&player](double after, double until) { return player.first_possible_jump(after, until); };
-    return {pose, next_event, look, next_jump};
+    return {pose, next_event, look, user_value, next_jump};
   }
 
   void put(std::size_t graph, const GraphInput& input) {
@@ -183,6 +186,9 @@ GraphPlayer GraphStack::player(const std::shared_ptr<const GraphStack>& stack, s
     ground.look = [stack, graph](std::size_t node, double at, Side side) {
       return Lent(*stack)->players[graph - 1].look_at(node, at, side);
     };
+    ground.user_value = [stack, graph](std::string_view track, double at, Side side) {
+      return Lent(*stack)->players[graph - 1].user_value_at(track, at, side);
+    };
     ground.next_jump = [stack, graph](double after, double until) {
       return Lent(*stack)->players[graph - 1].first_possible_jump(after, until);
     };
@@ -216,6 +222,11 @@ Motion GraphStack::sample_node(std::size_t node, double time, Side side) const {
 NodeLook GraphStack::look(std::size_t node, double time, Side side) const {
   const Lent lent(*this);
   return lent->players.back().look_at(node, std::isfinite(time) ? std::max(time, 0.0) : 0, side);
+}
+
+UserValue GraphStack::user_value(std::string_view track, double time, Side side) const {
+  const Lent lent(*this);
+  return lent->players.back().user_value_at(track, std::isfinite(time) ? std::max(time, 0.0) : 0, side);
 }
 
 std::vector<GraphEvent> GraphStack::events(double from, double to) const {

@@ -61,6 +61,7 @@ class GraphStack {
   void sample(double time, Side side, std::span<Motion> local) const;
   [[nodiscard]] Motion sample_node(std::size_t node, double time, Side side) const;
   [[nodiscard]] NodeLook look(std::size_t node, double time, Side side) const;
+  [[nodiscard]] UserValue user_value(std::string_view track, double time, Side side) const;
   [[nodiscard]] std::size_t nodes() const noexcept { return nodes_; }
 
   [[nodiscard]] std::vector<GraphEvent> events(double from, double to) const;

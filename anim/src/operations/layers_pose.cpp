@@ -65,20 +65,24 @@ class Layered : public Operation {
     return share;
   }
 
-  // Additive layers do not move the figure.
+  // Additive layers do not move the figure, but values.
   void bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,
                Bearers& out) const noexcept override {
     Sample<double> left = weight;
     for (std::size_t i = layers_.size(); i-- > 0;) {
       const Layer& layer = layers_[i];
-      const double reach = layer.mask[node];
-      if (layer.adds || reach == 0) continue;
+      const double reach = layer.mask.size() == 0 ? 1 : node < layer.mask.size() ? layer.mask[node] : 0;
+      if ((layer.adds && !out.adds) || reach == 0) continue;
       if (layer.weight.flows(log, moment.time, moment.side)) out.flow = true;
       const Sample<double> own =
           product({reach, 0, 0}, as_share(layer.weight.sample(log, moment.time, moment.side), moment.side));
       if (is_nothing(own)) continue;
-      layer.pose->bearers(log, moment, node, product(left, own), out);
-      left = product(left, rest_of(own));
+      const Sample<double> part = product(left, own);
+      layer.pose->bearers(log, moment, node, part, out);
+      if (!layer.adds)
+        left = product(left, rest_of(own));
+      else if (layer.reference)
+        layer.reference->bearers(log, moment, node, {-part.value, -part.rate, -part.acceleration}, out);
     }
     if (base_ && !is_nothing(left)) base_->bearers(log, moment, node, left, out);
   }

@@ -61,6 +61,7 @@ struct Bearers {
   std::array<Bearer, most> list;
   std::size_t count = 0;
   bool flow = false;  // their weights may change without an input
+  bool adds = false;  // layers that add count, too, and their references as much below 0
 
   [[nodiscard]] const Bearer* find(const Bearer& wanted) const noexcept {
     for (std::size_t i = 0; i < count; ++i)

@@ -1,12 +1,16 @@
 #include <tweenfall/anim/animation.h>
+#include <tweenfall/anim/graph.h>
 #include <tweenfall/curves/nearest_name.h>
 
 #include <algorithm>
+#include <array>
+#include <set>
 #include <stdexcept>
 
 #include "graph/graph_stack.h"
 #include "pose/bound_clip.h"
 #include "pose/clip_look.h"
+#include "pose/clip_values.h"
 
 namespace tweenfall {
 
@@ -65,6 +69,7 @@ struct Running {
   ClipClock clock{};
   Sample<double> weight{1, 0, 0};
   const std::vector<char>* masked = nullptr;  // null: the whole clip
+  const std::vector<std::string>* mask = nullptr;
   const std::vector<Parts>* below = nullptr;  // null: all or nothing, by the next member
   bool covered = false;
   bool yields = false;  // it has not begun, and what is below comes first
@@ -268,6 +273,7 @@ void Animation::for_each_running(double stage_time, Side side, const ClockOverri
     pose::Running running{.clip = &bound_clips_->clips[play->play().clip]};
     if (!alone) {
       running.masked = &bound_plays_->plays[p].masked;
+      running.mask = &play->play().mask;
       running.below = &bound_plays_->plays[p].below;
     }
     running.covered = covered;
@@ -328,6 +334,8 @@ WorldMotion Animation::world(std::size_t node, double stage_time, Side side,
 }
 
 NodeLook Animation::look(std::size_t node, double stage_time, Side side, const ClockOverride& own_clock) const {
+  if (graphs_ && own_clock.clip == ClockOverride::every_clip && node < graphs_->nodes())
+    return graphs_->look(node, own_clock.timeline_at(stage_time), side);
   NodeLook look;
   const auto shows = [&](const pose::Running& running) {
     const std::uint32_t index = running.clip->entry_of(node);
@@ -340,6 +348,45 @@ NodeLook Animation::look(std::size_t node, double stage_time, Side side, const C
     pose::lay_look_over(entry, running.clock, running.yields, running.weight, (*nodes_)[node], look);
   });
   return look;
+}
+
+std::vector<std::string> Animation::user_tracks() const {
+  std::vector<char> used(clips_->size(), 0);
+  for (const Player& player : *players_) used[player.play().clip] = 1;
+  for (const GraphDescription& graph : graphs())
+    for (const std::string& name : clips_named_in(graph)) {
+      const auto found = std::ranges::find(*clips_, name, &Clip::name);
+      if (found != clips_->end()) used[static_cast<std::size_t>(found - clips_->begin())] = 1;
+    }
+  std::vector<std::string> names;
+  std::set<std::string> known;
+  for (std::size_t clip = 0; clip < used.size(); ++clip)
+    for (const Track& track : (*clips_)[clip].tracks)
+      if (used[clip] && pose::is_user_track(track) && known.insert(track.name()).second) names.push_back(track.name());
+  return names;
+}
+
+UserValue Animation::user_value(std::string_view track, double stage_time, Side side) const {
+  const Track& named = pose::user_track_named(*clips_, track);
+  if (graphs_) return graphs_->user_value(track, stage_time, side);
+  UserValue value = pose::nothing_of(named.curve);
+  bool found = false;
+  const auto has_it = [&](const pose::Running& running) {
+    const Track* own = running.clip->user_track(track);
+    return own && own->curve.index() == value.index() && pose::passes(*running.mask, own->node);
+  };
+  for_each_running(stage_time, side, {}, has_it, [&](const pose::Running& running) {
+    const bool yields = running.yields && found;
+    found = true;
+    if (yields || pose::is_nothing(running.weight)) return;
+    UserValue over = pose::user_value_of(running.clip->user_track(track)->curve, running.clock);
+    const Sample<double>& weight = running.weight;
+    const Sample<double> left{1 - weight.value, -weight.rate, -weight.acceleration};
+    value = pose::is_whole(weight)
+                ? std::move(over)
+                : pose::mean_of(std::array{std::move(over), std::move(value)}, std::array{weight, left});
+  });
+  return value;
 }
 
 bool Animation::animates(std::size_t node) const noexcept {

@@ -1,6 +1,7 @@
 #include "pose/bound_clip.h"
 
 #include "clip/landing.h"
+#include "pose/clip_values.h"
 
 #include <tweenfall/anim/component.h>
 #include <tweenfall/curves/rotation.h>
@@ -113,7 +114,10 @@ BoundClip::BoundClip(const Clip& clip, const Hierarchy& nodes, std::string& prob
   entry_of_.assign(nodes.size(), no_entry);
   std::deque<Binding> driven;
   for (const Track& track : clip.tracks) {
-    if (property_named(track.property) == Property::user && !component_named(track.property)) continue;
+    if (is_user_track(track)) {
+      user_tracks_.emplace(track.name(), &track);
+      continue;
+    }
     const std::optional<std::size_t> node = nodes.find(track.node);
     if (!node) {
       problems += "\n  clip \"" + clip.name + "\": there is no node \"" + track.node + "\"";

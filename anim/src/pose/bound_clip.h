@@ -9,7 +9,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tweenfall::pose {
@@ -49,6 +51,12 @@ class BoundClip {
     return node < entry_of_.size() ? entry_of_[node] : no_entry;
   }
 
+  /// The user track of that name, "node.property"; null where the clip has none.
+  [[nodiscard]] const Track* user_track(std::string_view name) const noexcept {
+    const auto found = user_tracks_.find(name);
+    return found == user_tracks_.end() ? nullptr : found->second;
+  }
+
   /// Writes the driven parts into the motions of all nodes.
   void sample(const Hierarchy& nodes, const ClipClock& clock, std::span<Motion> local) const noexcept;
 
@@ -74,7 +82,8 @@ class BoundClip {
   std::vector<std::uint32_t> entry_of_;  // by node
   MotionCurves curves_;                  // one thing for each entry
   std::vector<Number> numbers_;          // by entry
-  bool finished_ = true;                 // no entry is relative or has numbers
+  std::map<std::string, const Track*, std::less<>> user_tracks_;
+  bool finished_ = true;  // no entry is relative or has numbers
   bool lands_;
 };
 

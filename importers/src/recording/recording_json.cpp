@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <variant>
 
 #include "json/json_string.h"
 #include "recording/words.h"
@@ -87,6 +89,49 @@ void append_joint(std::string& out, const Recording& recording, const JointRecor
     append_readings(out, "rate", joint,
                     [&](const JointReading& reading) { append_coordinates(reading.rate, reading.coordinates); });
   }
+  out += "}";
+}
+
+template <class T>
+void append_value(std::string& out, const T& value) {
+  if constexpr (std::is_same_v<T, double>)
+    append_number(out, value);
+  else if constexpr (std::is_same_v<T, Quat>)
+    append_rotation(out, value);
+  else if constexpr (std::is_same_v<T, Color>)
+    append_value(out, value.rgba);
+  else
+    append_list(out, static_cast<std::size_t>(value.size()),
+                [&](std::size_t i) { append_number(out, value[static_cast<Eigen::Index>(i)]); });
+}
+
+/// Values frame by frame and, where they have any, rates: rotations x y z w, their rates angular velocities; colors
+/// linear red, green, blue, alpha.
+void append_user_track(std::string& out, const UserTrackRecord& track) {
+  json::append_string(out, track.name);
+  const auto each = [&](const char* word, const auto& append) {
+    (out += word) += ": ";
+    append_list(out, track.value.size(), [&](std::size_t frame) { std::visit(append, track.value[frame]); });
+  };
+  each(": {\"value\"", [&]<class T>(const T& value) {
+    if constexpr (std::is_same_v<T, bool>)
+      out += value ? "true" : "false";
+    else if constexpr (std::is_same_v<T, std::string>)
+      json::append_string(out, value);
+    else if constexpr (std::is_same_v<T, std::vector<Sample<double>>>)
+      append_list(out, value.size(), [&](std::size_t i) { append_number(out, value[i].value); });
+    else
+      append_value(out, value.value);
+  });
+  const bool has_rate = !track.value.empty() && !std::holds_alternative<bool>(track.value.front()) &&
+                        !std::holds_alternative<std::string>(track.value.front());
+  if (has_rate)
+    each(", \"rate\"", [&]<class T>(const T& value) {
+      if constexpr (std::is_same_v<T, std::vector<Sample<double>>>)
+        append_list(out, value.size(), [&](std::size_t i) { append_number(out, value[i].rate); });
+      else if constexpr (!std::is_same_v<T, bool> && !std::is_same_v<T, std::string>)
+        append_value(out, value.rate);
+    });
   out += "}";
 }
 
@@ -282,6 +327,11 @@ std::string recording_json(const Recording& recording) {
   out += ",\n \"nodes\": ";
   recordings::append_lines(out, '{', '}', recording.nodes.size(),
                            [&](std::size_t i) { recordings::append_node(out, recording.nodes[i]); });
+  if (!recording.user_tracks.empty()) {
+    out += ",\n \"tracks\": ";
+    recordings::append_lines(out, '{', '}', recording.user_tracks.size(),
+                             [&](std::size_t i) { recordings::append_user_track(out, recording.user_tracks[i]); });
+  }
   if (!recording.joints.empty()) {
     out += ",\n \"joints\": ";
     recordings::append_lines(out, '{', '}', recording.joints.size(),

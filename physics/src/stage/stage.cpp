@@ -166,6 +166,18 @@ NodeLook Stage::look(NodeId node) const {
   return look;
 }
 
+std::vector<std::string> Stage::user_tracks() const {
+  std::vector<std::string> names = inside().current().animation->user_tracks();
+  std::erase_if(names, [](const std::string& name) {
+    return name.ends_with(".drive_hz") || name.ends_with(".surface_velocity");
+  });
+  return names;
+}
+
+UserValue Stage::user_value(std::string_view track) const {
+  return inside().current().animation->user_value(track, time());
+}
+
 Vec3 Stage::reaction(NodeId node) const {
   const staging::StageState& state = inside().current();
   return state.world.reaction(state.bodies[staging::body_index(state, node)].id);

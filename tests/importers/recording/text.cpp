@@ -1,3 +1,4 @@
+#include <tweenfall/importers/document.h>
 #include <tweenfall/importers/recording_file.h>
 
 #include "page/example_stage.h"
@@ -98,6 +99,41 @@ TEST_CASE("a recording as JSON says of an interval whether it begins or ends") {
   const nlohmann::json events = nlohmann::json::parse(recording_json(recording))["events"];
   CHECK(events[0] == nlohmann::json::parse(R"({"time": 0.25, "name": "loud", "kind": "begin"})"));
   CHECK(events[1] == nlohmann::json::parse(R"({"time": 0.5, "name": "loud", "kind": "end"})"));
+}
+
+TEST_CASE("a recording as JSON tells user tracks as plays and graphs mix them, frame by frame, with rates") {
+  const Document document = Document::parse(R"({
+    "tweenfall": 1,
+    "nodes": {"hips": {}, "lamp": {}, "ball": {"body": {"shape": {"sphere": {"radius": 0.1}}, "mass": 1}}},
+    "clips": {
+      "walk": {"duration": 2, "tracks": {"hips.effort": [[0, 0, "linear"], [2, 4]], "hips.wind": [[0, [1, 2, 3]]],
+                                         "lamp.on": [[0, true]], "lamp.word": [[0, "\"go\""]], "lamp.glow": [[0, "#ff0000"]]}},
+      "stand": {"duration": 2, "tracks": {"hips.effort": [[0, 1]]}},
+      "late": {"duration": 1, "tracks": {"hips.late": [[0, 7]], "ball.drive_hz": [[0, 7]]}},
+      "never": {"duration": 1, "tracks": {"hips.never": [[0, 7]]}}
+    },
+    "play": [{"clip": "stand"}, {"clip": "late", "at": 1, "fill": "forwards"}],
+    "graphs": {"g": {
+      "parameters": {"speed": 0},
+      "poses": {"gait": {"space": {"by": "speed", "poses": [[0, "stand"], [1, "walk"]]}}},
+      "inputs": [[0.5, "speed", 0.75]]
+    }}
+  })",
+                                            "values.json", ".");
+  Stage stage(document.stage());
+  const nlohmann::json tracks = nlohmann::json::parse(recording_json(record(stage, 1, 2)))["tracks"];
+  CHECK(tracks["hips.effort"]["value"] == nlohmann::json({1, 0.25 * 1 + 0.75 * 1, 0.25 * 1 + 0.75 * 2}));
+  CHECK(tracks["hips.effort"]["rate"] == nlohmann::json({0, 0.75 * 2, 0.75 * 2}));
+  CHECK(tracks["hips.wind"]["value"][2] == nlohmann::json({0.75, 1.5, 2.25}));
+  CHECK(tracks["hips.wind"]["rate"][2] == nlohmann::json({0, 0, 0}));
+  CHECK(tracks["lamp.on"] == nlohmann::json({{"value", {false, true, true}}}));
+  CHECK(tracks["lamp.word"]["value"] == nlohmann::json({"", "\"go\"", "\"go\""}));
+  CHECK(tracks["lamp.glow"]["value"][1] == nlohmann::json({1, 0, 0, 0.75}));
+  CHECK(tracks["hips.late"]["value"] == nlohmann::json({0, 0, 7}));
+  CHECK(tracks.size() == 6);
+  CHECK(stage.user_tracks().size() == 6);
+  CHECK(std::get<Sample<double>>(stage.user_value("hips.effort")).rate == 1.5);
+  CHECK_THROWS_WITH(static_cast<void>(stage.user_value("hips.efort")), doctest::Contains("hips.effort"));
 }
 
 TEST_CASE("names with quotes, line breaks and angle brackets survive JSON and CSV") {

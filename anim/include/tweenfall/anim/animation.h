@@ -17,6 +17,7 @@
 #include <tweenfall/anim/node_look.h>
 #include <tweenfall/anim/play.h>
 #include <tweenfall/anim/player.h>
+#include <tweenfall/anim/user_value.h>
 
 #include <memory>
 #include <optional>
@@ -88,6 +89,15 @@ class Animation {
   /// from the node's own.
   [[nodiscard]] NodeLook look(std::size_t node, double stage_time, Side side = Side::out,
                               const ClockOverride& clock = {}) const;
+
+  // User tracks
+  /// The names of those that plays and graphs have, each once: "node.property", in the order of the clips.
+  [[nodiscard]] std::vector<std::string> user_tracks() const;
+  /// The value of one, mixed as poses are. Clips that lack it show what lies below; where nothing does, it is zero,
+  /// transparent, not turned, off or empty. Of switches and texts the one with the largest weight shows, of equal ones
+  /// the upper. If clips have the track in several kinds, that of the first counts, and others lack it.
+  /// @throws std::invalid_argument with the nearest name
+  [[nodiscard]] UserValue user_value(std::string_view track, double stage_time, Side side = Side::out) const;
 
   // Graphs
   [[nodiscard]] std::span<const GraphDescription> graphs() const noexcept;

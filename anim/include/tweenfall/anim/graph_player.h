@@ -15,6 +15,7 @@
 
 #include <tweenfall/anim/graph.h>
 #include <tweenfall/anim/node_look.h>
+#include <tweenfall/anim/user_value.h>
 #include <tweenfall/curves/pose.h>
 
 #include <cstddef>
@@ -77,6 +78,8 @@ struct GraphGround {
   std::function<std::optional<double>(std::string_view name, double after, double until)> next_event{};
   /// Color and morph weights of a node there; none: nothing is animated.
   std::function<NodeLook(std::size_t node, double time, Side side)> look{};
+  /// The value of a user track there; none: nothing has it.
+  std::function<UserValue(std::string_view track, double time, Side side)> user_value{};
   /// The first time in (after, until] at which the pose there may jump, or was changed from outside; none: it never
   /// jumps.
   std::function<std::optional<double>(double after, double until)> next_jump{};
@@ -114,9 +117,13 @@ class GraphPlayer {
   void pose(std::span<Motion> local, Side side = Side::out) noexcept;
   /// The same at any time; computes what happens until then.
   void pose_at(double time, std::span<Motion> local, Side side = Side::out);
-  /// Color and morph weights of a node, at any time: the mean over the clips that show, by their weights. Operations do
-  /// not change them; where a machine settles, they fade.
+  /// Color and morph weights of a node, at any time: the mean over the clips that show, by their weights, and what
+  /// layers add. Operations do not change them; where a machine settles, they fade.
   [[nodiscard]] NodeLook look_at(std::size_t node, double time, Side side = Side::out);
+  /// The value of a user track, "node.property", at any time, mixed in the same way; layers do not add rotations.
+  /// Clips without the track show what lies below, as at `Animation::user_value`.
+  /// @throws std::invalid_argument with the nearest name
+  [[nodiscard]] UserValue user_value_at(std::string_view track, double time, Side side = Side::out);
   /// The value of a parameter that poses see. @throws std::invalid_argument with the nearest name
   [[nodiscard]] Sample<double> parameter(std::string_view name) const;
   /// Events of clips that show, in (from, to], in order; an event at 0 is included if `from` is below 0.

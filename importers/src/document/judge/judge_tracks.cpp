@@ -6,6 +6,9 @@
 #include "document/report/foreign_words.h"
 #include "document/report/suggestion.h"
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <set>
 
 namespace tweenfall::document::judging {
@@ -32,6 +35,43 @@ std::string meant_by(std::string_view track) {
   return dot == std::string_view::npos ? std::string() : said_of_property(track.substr(dot + 1), track.substr(0, dot));
 }
 
+// The kinds of user tracks, by the first clip that has each.
+class Kinds {
+ public:
+  explicit Kinds(const Building& building) : building_(building) {
+    for (const Clip& clip : building.stage.clips)
+      for (const Track& track : clip.tracks) first_.emplace(track.name(), First{clip.name, word_of(track.curve)});
+  }
+
+  // Of a track that is of another kind in an earlier clip, what follows; else empty.
+  [[nodiscard]] std::string said_of(std::string_view clip, std::string_view track) const {
+    const auto index = building_.clips.find(clip);
+    if (index == building_.clips.end() || property_named(track.substr(track.rfind('.') + 1)) != Property::user)
+      return {};
+    const std::vector<Track>& tracks = building_.stage.clips[index->second].tracks;
+    const auto own = std::ranges::find_if(tracks, [&](const Track& each) { return each.name() == track; });
+    const auto first = first_.find(track);
+    if (own == tracks.end() || first == first_.end() || first->second.kind == word_of(own->curve)) return {};
+    return json::in_quotes(track) + " is a " + word_of(own->curve) + " here and a " + first->second.kind +
+           " in the clip " + json::in_quotes(first->second.clip) +
+           ": where clips are mixed, this one counts as without it";
+  }
+
+ private:
+  struct First {
+    std::string clip, kind;
+  };
+  static const char* word_of(const TrackCurve& curve) {
+    constexpr const char* words[] = {"number",   "vector",          "vector", "vector", "color",
+                                     "rotation", "list of weights", "switch", "text"};
+    static_assert(std::size(words) == std::variant_size_v<TrackCurve>);
+    return words[curve.index()];
+  }
+
+  const Building& building_;
+  std::map<std::string, First, std::less<>> first_;
+};
+
 }  // namespace
 
 // User tracks with names close to ours or to those of other programs; they are valid, but perhaps not
@@ -40,12 +80,15 @@ void judge_tracks(Building& building) {
   const std::set<std::string> followed = followed_tracks(building.root);
   const json::Value clips = usable(building.root, "clips");
   if (!clips) return;
+  const Kinds kinds(building);
   for (const json::Member& clip : clips.members()) {
     const json::Value tracks = is_free_name(clip.name) ? json::Value() : usable(clip.value, "tracks");
     if (!tracks) continue;
     for (const json::Member& track : tracks.members()) {
       // If its value is faulty, that message says what was meant, too.
       if (is_free_name(track.name) || track.value.is(json::Value::Kind::faulty)) continue;
+      if (const std::string differs = kinds.said_of(clip.name, track.name); !differs.empty())
+        building.problems.note_name(track, differs);
       if (followed.contains(std::string(track.name))) continue;
       if (const std::string meant = meant_by(track.name); !meant.empty())
         building.problems.note_name(

@@ -1,8 +1,10 @@
+#include <tweenfall/anim/component.h>
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/physics/stage/recording.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "stage/record/graph_record.h"
@@ -47,6 +49,27 @@ void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& 
       record.weights.push_back(std::move(weights));
     }
   }
+}
+
+/// Those of all clips: a play may start at any time.
+std::vector<UserTrackRecord> user_tracks_of(const StageDescription& description) {
+  std::vector<UserTrackRecord> records;
+  std::set<std::string> known;
+  for (const Clip& clip : description.clips)
+    for (const Track& track : clip.tracks)
+      if (property_named(track.property) == Property::user && !component_named(track.property) &&
+          known.insert(track.name()).second)
+        records.push_back({.name = track.name(), .value = {}});
+  return records;
+}
+
+void take_user_tracks(const Stage& stage, Recording& recording, double& room) {
+  for (UserTrackRecord& record : recording.user_tracks) record.value.push_back(stage.user_value(record.name));
+  room -= static_cast<double>(recording.user_tracks.size() * sizeof(UserValue));
+  if (room < 0)
+    throw std::invalid_argument("by " + number_text(stage.time()) +
+                                " s a recording of the user tracks takes more memory than is allowed: end it earlier, "
+                                "or take fewer frames per second");
 }
 
 /// Joints added later, and those that hold other bodies under the name of one that is gone, have records of their own.
@@ -183,11 +206,13 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
   staging::require_affordable(stage, until, fps, most_bytes);
   Recording recording;
   recording.name = stage.description().name;
+  recording.user_tracks = staging::user_tracks_of(stage.description());
   std::vector<WorldMotion> world;
   const double start = stage.time();
-  double room = std::min(most_bytes, 256.0 * 1024 * 1024), particle_room = most_bytes;
+  double room = std::min(most_bytes, 256.0 * 1024 * 1024), particle_room = most_bytes, track_room = most_bytes;
   const auto take = [&] {
     staging::take_frame(stage, world, recording);
+    staging::take_user_tracks(stage, recording, track_room);
     staging::take_joints(stage, recording);
     staging::take_softs(stage, recording);
     recording.energy.push_back(stage.energy());
@@ -217,6 +242,9 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     if (!node.color.empty()) node.color.resize(recording.times.size(), node.color.back());
     if (!node.weights.empty()) node.weights.resize(recording.times.size(), node.weights.back());
   }
+  const std::vector<std::string> played = stage.user_tracks();
+  std::erase_if(recording.user_tracks,
+                [&](const UserTrackRecord& record) { return std::ranges::find(played, record.name) == played.end(); });
   recording.graphs = staging::graph_records(stage, recording.times);
   for (SoftRecord& soft : recording.softs)
     for (std::size_t& edge : soft.torn_at) edge = std::min(edge, recording.times.size());

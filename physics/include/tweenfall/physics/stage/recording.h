@@ -53,6 +53,12 @@ struct GraphRecord {
   std::vector<Machine> machines;
 };
 
+/// A user track through all frames, as plays and graphs mix it.
+struct UserTrackRecord {
+  std::string name;              ///< "node.property"
+  std::vector<UserValue> value;  ///< one per frame, all of one kind
+};
+
 /// One soft body of the stage's description through all frames.
 struct SoftRecord {
   std::string name;
@@ -88,8 +94,9 @@ struct Recording {
   std::string name;
   std::vector<double> times;  ///< s
   std::vector<NodeRecord> nodes;
-  std::vector<JointRecord> joints;         ///< in the description's order, then the added ones in theirs
-  std::vector<GraphRecord> graphs;         ///< in the description's order
+  std::vector<JointRecord> joints;  ///< in the description's order, then the added ones in theirs
+  std::vector<GraphRecord> graphs;  ///< in the description's order
+  std::vector<UserTrackRecord> user_tracks;
   std::vector<SoftRecord> softs;           ///< in the description's order
   std::vector<VehicleRecord> vehicles;     ///< likewise
   std::vector<ParticlesRecord> particles;  ///< likewise

@@ -142,6 +142,11 @@ class Stage {
   [[nodiscard]] Owner owner(NodeId node) const;  ///< a node without a body is keyed
   [[nodiscard]] Drive drive(NodeId node) const;  ///< what holds its body to its path; on a ramp, its present value
   [[nodiscard]] NodeLook look(NodeId node) const;
+  /// The names of the user tracks that plays and graphs have, "node.property", without those of drives and surfaces;
+  /// and the value of one: mixed by their weights, as at `Animation::user_value`.
+  /// @throws std::invalid_argument with the nearest name
+  [[nodiscard]] std::vector<std::string> user_tracks() const;
+  [[nodiscard]] UserValue user_value(std::string_view track) const;
   [[nodiscard]] Vec3 reaction(NodeId node) const;  ///< sum of contact impulses taken by a keyed or fixed body, N s
   /// The state of a joint at the end of the last step before or at `time()`; empty once it is gone: because it broke or
   /// ended, or because one of its bodies left. @throws std::invalid_argument with the nearest name
