@@ -8,17 +8,18 @@ ChainShape::ChainShape(const JointChain& chain, std::span<const Motion> pose) no
   Arrow scale{Vec3(1, 1, 1), Vec3(0, 0, 0)};
   for (std::size_t i = 0; i < count_; ++i) {
     const std::size_t node = joint(i).node, next = i + 1 < count_ ? joint(i + 1).node : chain.end();
+    reflection_[i] = tweenfall::pose::reflection_of(scale.v);
     scale = componentwise(scale, scale_of(pose[node]));
     bone_[i] = componentwise(scale, position_of(seen_from(nodes, node, next, pose)));
     length_[i] = chains::length(bone_[i]);
     reach_ = reach_ + length_[i];
-    fixed_[i].v = joint(i).rest;
+    fixed_[i].v = tweenfall::pose::reflected_by(reflection_[i], joint(i).rest);
     if (i + 1 < count_ && nodes[next].parent != node) {
       const Motion carrier = seen_from(nodes, node, nodes[next].parent, pose);
-      between_[i + 1] = rotation_of(carrier);
+      between_[i + 1] = reflected_by(tweenfall::pose::reflection_of(scale.v), rotation_of(carrier));
       scale = componentwise(scale, scale_of(carrier));
     }
-    turn_[i] = within_limits(joint(i), inverse(fixed_[i]) * rotation_of(pose[node]));
+    turn_[i] = within_limits(joint(i), inverse(fixed_[i]) * reflected_by(reflection_[i], rotation_of(pose[node])));
   }
   at_[0] = position_of(pose[joint(0).node]);
   place();

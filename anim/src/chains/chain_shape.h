@@ -26,7 +26,9 @@ class ChainShape {
   /// How a joint is turned from rest, in the axes of its rest pose.
   [[nodiscard]] const Turning& turn(std::size_t i) const noexcept { return turn_[i]; }
   /// The rotation of a joint, in the axes of its parent.
-  [[nodiscard]] Turning local(std::size_t i) const noexcept { return fixed_[i] * turn_[i]; }
+  [[nodiscard]] Turning local(std::size_t i) const noexcept {
+    return reflected_by(reflection_[i], fixed_[i] * turn_[i]);
+  }
   /// Converts a direction from the common space to the axes of the joint's turn, and back.
   [[nodiscard]] Arrow inside(std::size_t i, const Arrow& a) const noexcept { return inverse(outer_[i]) * a; }
   [[nodiscard]] Arrow outside(std::size_t i, const Arrow& a) const noexcept { return outer_[i] * a; }
@@ -44,7 +46,8 @@ class ChainShape {
   const JointChain* chain_;
   std::size_t count_;
   Dual reach_;
-  Arrow bone_[room];  // to the next joint, in the joint's own axes, scaled
+  Vec3 reflection_[room];  // of a joint by the scales above it in the chain: all but `local` is as without
+  Arrow bone_[room];       // to the next joint, in the joint's own axes, scaled
   Dual length_[room];
   Turning between_[room];            // from the own axes of the joint before to those of the parent
   Turning fixed_[room];              // rest rotation

@@ -27,8 +27,7 @@ Step step_of(const FootPlacement& placement, std::size_t foot, const GroundAt& g
              const Dual& weight, std::span<const Motion> pose) noexcept {
   const Vec3 still(0, 0, 0), &up = placement.up();
   const std::size_t end = placement.feet()[foot].leg.end();
-  const Motion world =
-      placement.nodes().world_motion(end, [&](std::size_t i) -> const Motion& { return pose[i]; }).motion;
+  const Motion world = in_world(placement.nodes(), end, pose);
   Step step;
   step.ankle = position_of(world);
   step.rotation = rotation_of(world);
@@ -150,8 +149,9 @@ void place_feet(const FootPlacement& placement, const GroundAt& ground, const Sa
     const Arrow target = step.ankle + step.rise * up + step.tilt * ankle - ankle;
     reach(foot.leg, {.target = {target.v, target.d, Vec3(0, 0, 0)}, .softness = placement.softness()},
           {leg.v, leg.d, 0}, pose);
-    const Turning outer = rotation_of(above(nodes, foot.leg.end(), pose).motion);
-    turn_to(pose[foot.leg.end()], chains::inverse(outer) * step.tilt * step.rotation, {1, 0, 0});
+    const Motion outer = in_world(nodes, nodes[foot.leg.end()].parent, pose);
+    const Turning local = chains::inverse(rotation_of(outer)) * step.tilt * step.rotation;
+    turn_to(pose[foot.leg.end()], reflected_by(tweenfall::pose::reflection_of(outer.pose.scale), local), {1, 0, 0});
   }
 }
 

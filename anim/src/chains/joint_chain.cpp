@@ -3,6 +3,8 @@
 #include "chains/moving.h"
 #include "chains/problems.h"
 
+#include <utility>
+
 namespace tweenfall {
 
 JointChain::JointChain(const Hierarchy& nodes, const JointChainSettings& settings)
@@ -47,17 +49,26 @@ JointChain::JointChain(const Hierarchy& nodes, const JointChainSettings& setting
   std::vector<Motion> rest(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) rest[i].pose = nodes[i].rest;
   joints_.reserve(count - 1);
+  Vec3 above(1, 1, 1);  // the scales of the chain above a joint at rest
   for (std::size_t i = 0; i + 1 < count; ++i) {
     Joint& joint = joints_.emplace_back();
     joint.node = found[i];
     joint.limit = settings.links[i].limit;
     joint.rest = nodes[found[i]].rest.rotation;
+    const Vec3 reflection = pose::reflection_of(above), signs = pose::signs_of(above);
+    above = above.cwiseProduct(nodes[found[i]].rest.scale);
     const Vec3 bone =
-        chains::seen_from(nodes, found[i], found[i + 1], rest).pose.position.cwiseProduct(nodes[found[i]].rest.scale);
+        pose::signs_of(above).cwiseProduct(chains::seen_from(nodes, found[i], found[i + 1], rest)
+                                               .pose.position.cwiseProduct(nodes[found[i]].rest.scale.cwiseAbs()));
+    for (std::size_t k = nodes[found[i + 1]].parent; k != found[i]; k = nodes[k].parent)
+      above = above.cwiseProduct(nodes[k].rest.scale);
     const double length = std::sqrt(bone.squaredNorm());
     joint.has_bone = length > 0;
     if (joint.has_bone) joint.bone = bone / length;
-    if (auto* hinge = std::get_if<HingeLimit>(&joint.limit)) hinge->axis = hinge->axis / hinge->axis.norm();
+    if (auto* hinge = std::get_if<HingeLimit>(&joint.limit))
+      hinge->axis = reflection.cwiseProduct(hinge->axis / hinge->axis.norm());
+    auto* cone = std::get_if<ConeLimit>(&joint.limit);
+    if (cone && signs.prod() < 0) cone->twist_low = -std::exchange(cone->twist_high, -cone->twist_low);
     problems.at({"joints", std::to_string(i)})
         .require(joint.has_bone || !std::holds_alternative<ConeLimit>(joint.limit),
                  "joint " + std::to_string(i + 1) + " (" + chains::called(nodes, told[i]) +

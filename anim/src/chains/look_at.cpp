@@ -97,10 +97,13 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
   const Vec3 still(0, 0, 0);
   const auto sight_of = [&](const Motion& looking) {
     const Turning turn = rotation_of(looking);
+    const Vec3 signs = tweenfall::pose::signs_of(looking.pose.scale);
     return Sight{position_of(looking) + turn * componentwise(scale_of(looking), {chain.eye(), still}),
-                 turn * Arrow{chain.forward(), still}, turn * Arrow{chain.up(), still}};
+                 turn * Arrow{signs.cwiseProduct(chain.forward()), still},
+                 turn * Arrow{signs.cwiseProduct(chain.up()), still}};
   };
-  const Motion looking = first == last ? pose[last] : compose(pose[first], seen_from(nodes, first, last, pose));
+  const Motion looking =
+      first == last ? pose[last] : tweenfall::pose::compose_reflected(pose[first], seen_from(nodes, first, last, pose));
   const Sight before = sight_of(looking);
   const Measured way = measured(inward.point(arrow(goal.target)) - before.eye);
   if (!way.any) return;
@@ -111,10 +114,12 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const std::size_t node = joints[i].node;
     if (i > 0 && nodes[node].parent != joints[i - 1].node)
-      carrier = compose(carrier, seen_from(nodes, joints[i - 1].node, nodes[node].parent, pose));
-    const Motion here = compose(carrier, pose[node]);
+      carrier =
+          tweenfall::pose::compose_reflected(carrier, seen_from(nodes, joints[i - 1].node, nodes[node].parent, pose));
+    const Motion here = tweenfall::pose::compose_reflected(carrier, pose[node]);
     const Arrow joint = position_of(here);
-    Sight sight = sight_of(node == last ? here : compose(here, seen_from(nodes, node, last, pose)));
+    Sight sight =
+        sight_of(node == last ? here : tweenfall::pose::compose_reflected(here, seen_from(nodes, node, last, pose)));
     sight.eye = sight.eye - joint;
     const Measured to = measured(target - joint);
     Motion turned = pose[node];
@@ -130,11 +135,12 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
         correction = exp_turn((wholly ? roll : share * roll) * axis) * correction;
       }
       const Turning outer = rotation_of(carrier);
-      const Turning local = chains::inverse(outer) * correction * rotation_of(here);
+      const Turning local = reflected_by(tweenfall::pose::reflection_of(carrier.pose.scale),
+                                         chains::inverse(outer) * correction * rotation_of(here));
       turned.pose.rotation = local.v;
       turned.twist.angular = local.w;
     }
-    carrier = compose(carrier, turned);
+    carrier = tweenfall::pose::compose_reflected(carrier, turned);
     turn_to(pose[node], rotation_of(turned), weight);
   }
 }

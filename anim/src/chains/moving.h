@@ -11,6 +11,8 @@
 #include <concepts>
 #include <type_traits>
 
+#include "pose/reflection.h"
+
 // Small functions are always inlined: a solve is a few hundred operations, and calls would take half of its time.
 
 namespace tweenfall::chains {
@@ -239,6 +241,11 @@ template <class Vector>
   return {sample.value, sample.rate};
 }
 
+/// A turning in the axes that a reflection mirrors, see `pose::reflection_of`.
+[[gnu::always_inline]] inline Turning reflected_by(const Vec3& reflection, const Turning& a) noexcept {
+  return {pose::reflected_by(reflection, a.v), reflection.cwiseProduct(a.w)};
+}
+
 /// The rotation of a local motion replaced; a weight of 0 leaves it as it is and 1 puts `to` there, bit for bit.
 [[gnu::always_inline]] inline void turn_to(Motion& motion, const Turning& to, const Sample<double>& weight) noexcept {
   if (weight.value == 1 && weight.rate == 0) {
@@ -305,11 +312,24 @@ inline WorldMotion above(const Hierarchy& nodes, std::size_t node, std::span<con
   return nodes.world_motion(parent, [&](std::size_t i) -> const Motion& { return pose[i]; });
 }
 
+/// Motion of a node in the world, `no_node` for the world itself, with the rotation that it has where scales mirror.
+inline Motion in_world(const Hierarchy& nodes, std::size_t node, std::span<const Motion> pose) noexcept {
+  if (node == no_node) return {};
+  bool mirrors = false;
+  for (std::size_t i = node; i != no_node; i = nodes[i].parent) mirrors = mirrors || pose[i].pose.scale.minCoeff() < 0;
+  if (!mirrors) return nodes.world_motion(node, [&](std::size_t i) -> const Motion& { return pose[i]; }).motion;
+  Motion motion = pose[node];
+  for (std::size_t i = nodes[node].parent; i != no_node; i = nodes[i].parent)
+    motion = pose::compose_reflected(pose[i], motion);
+  return motion;
+}
+
 /// Motion of `node` in the space of `top`, which is above it.
 inline Motion seen_from(const Hierarchy& nodes, std::size_t top, std::size_t node,
                         std::span<const Motion> pose) noexcept {
   Motion motion = pose[node];
-  for (std::size_t i = nodes[node].parent; i != top; i = nodes[i].parent) motion = compose(pose[i], motion);
+  for (std::size_t i = nodes[node].parent; i != top; i = nodes[i].parent)
+    motion = pose::compose_reflected(pose[i], motion);
   return motion;
 }
 

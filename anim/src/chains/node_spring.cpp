@@ -53,10 +53,7 @@ class Script {
     Seen& next = seen_[next_];
     next_ = (next_ + 1) % seen_.size();
     pose_at_(time, scratch_);
-    next = {true, time,
-            spring_.nodes()
-                .world_motion(spring_.node(), [&](std::size_t i) -> const Motion& { return scratch_[i]; })
-                .motion};
+    next = {true, time, in_world(spring_.nodes(), spring_.node(), scratch_)};
     return next.motion;
   }
 
@@ -141,8 +138,11 @@ void follow(const NodeSpring& spring, NodeSpringState& state, double time, const
     motion.twist.linear += local.d;
   }
   if (spring.rotation()) {
-    const Turning outer = rotation_of(parent.motion);
-    turn_to(motion, chains::inverse(outer) * exp_turn(turn) * outer * rotation_of(motion), weight);
+    const Motion carrier = in_world(nodes, nodes[spring.node()].parent, pose);
+    const Turning outer = rotation_of(carrier);
+    const Vec3 reflection = tweenfall::pose::reflection_of(carrier.pose.scale);
+    const Turning own = reflected_by(reflection, rotation_of(motion));
+    turn_to(motion, reflected_by(reflection, chains::inverse(outer) * exp_turn(turn) * outer * own), weight);
   }
 }
 
@@ -151,9 +151,7 @@ NodeSpringState begun_anew(const NodeSpring& spring, NodeSpringState state, doub
                            std::span<const Motion> after) noexcept {
   using namespace chains;
   const auto [place, turn] = away_at(spring, state, time, pose_at, scratch);
-  const auto world_in = [&](std::span<const Motion> pose) {
-    return spring.nodes().world_motion(spring.node(), [&](std::size_t i) -> const Motion& { return pose[i]; }).motion;
-  };
+  const auto world_in = [&](std::span<const Motion> pose) { return in_world(spring.nodes(), spring.node(), pose); };
   const Motion from = world_in(before), to = world_in(after);
   const Arrow way = place + position_of(from) - position_of(to);
   const Arrow left = log_turn(exp_turn(turn) * rotation_of(from) * chains::inverse(rotation_of(to)));

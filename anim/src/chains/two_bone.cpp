@@ -15,6 +15,7 @@ constexpr double nothing = 1e-14;  // of the chain's length
 struct TwoBones {
   Arrow first, second;  // in the space of the start
   Turning carried;      // from the space of the middle's turn to that of the start
+  Vec3 start_reflection{1, 1, 1}, carrier_reflection{1, 1, 1};  // of what is below the start, and between the two
 };
 
 TwoBones two_bones(const TwoBoneChain& chain, std::span<const Motion> pose) noexcept {
@@ -22,11 +23,13 @@ TwoBones two_bones(const TwoBoneChain& chain, std::span<const Motion> pose) noex
   const Motion carrier = nodes[chain.middle()].parent == chain.start()
                              ? Motion{}
                              : seen_from(nodes, chain.start(), nodes[chain.middle()].parent, pose);
-  const Motion middle = compose(carrier, pose[chain.middle()]),
+  const Motion middle = tweenfall::pose::compose_reflected(carrier, pose[chain.middle()]),
                end = seen_from(nodes, chain.middle(), chain.end(), pose);
   const Arrow scale = scale_of(pose[chain.start()]);
   TwoBones bones;
   bones.carried = rotation_of(carrier);
+  bones.start_reflection = tweenfall::pose::reflection_of(pose[chain.start()].pose.scale);
+  bones.carrier_reflection = tweenfall::pose::reflection_of(carrier.pose.scale);
   bones.first = componentwise(scale, position_of(middle));
   bones.second = componentwise(scale, rotation_of(middle) * componentwise(scale_of(middle), position_of(end)));
   return bones;
@@ -259,7 +262,8 @@ TwoBoneChain::TwoBoneChain(const Hierarchy& nodes, const TwoBoneSettings& settin
   for (std::size_t i = 0; i < nodes.size(); ++i) rest[i].pose = nodes[i].rest;
   const chains::TwoBones bones = chains::two_bones(*this, rest);
   const Vec3 &first = bones.first.v, &second = bones.second.v;
-  const Vec3 axis = settings.axis ? *settings.axis : Vec3(first.cross(second));
+  const Vec3 axis =
+      settings.axis ? Vec3(bones.start_reflection.cwiseProduct(*settings.axis)) : Vec3(first.cross(second));
   const double size = std::sqrt(axis.squaredNorm());
   const double bone = std::sqrt(first.squaredNorm()), lengths = bone * std::sqrt(second.squaredNorm());
   if (settings.axis) {
@@ -337,7 +341,10 @@ void reach(const TwoBoneChain& chain, const TwoBoneGoal& goal, const Sample<doub
       bent<Arrow, Dual>(bone, first.length, second.length, {along.v, 1, 1, along}, way.length, start, inward, goal);
   turn_to(start, bend.start, weight);
   const Turning bending = arc(second.unit, {bend.way, bend.way_spin.cross(bend.way)}, bone.y.v);
-  turn_to(middle, chains::inverse(bones.carried) * bending * bones.carried * rotation_of(middle), weight);
+  // Where scales mirror, the middle turns the other way round for what is above it.
+  const Turning local = chains::inverse(bones.carried) * reflected_by(bones.start_reflection, bending) * bones.carried *
+                        reflected_by(bones.carrier_reflection, rotation_of(middle));
+  turn_to(middle, reflected_by(bones.carrier_reflection, local), weight);
 }
 
 }  // namespace tweenfall

@@ -98,7 +98,7 @@ class JointChain {
 };
 
 /// Turns the joints so that the end is at the target or, where bones and limits do not allow that, as near as possible.
-/// The result keeps the limits, whatever the pose was. Exact where scales are uniform.
+/// The result keeps the limits, whatever the pose was. Exact where scales are uniform, mirrored or not.
 ///
 /// @param target  place in the world, m, and its velocity
 /// @param weight  0 leaves the pose as it is and 1 reaches, bit for bit; between, each joint turns part of its way

@@ -63,7 +63,7 @@ struct LookAtGoal {
 };
 
 /// Turns the joints so that the last one, if its share is 1 and the limit allows it, looks at the target from its eye,
-/// exactly. A target at the joint itself leaves the pose as it is. Exact where scales are uniform.
+/// exactly. A target at the joint itself leaves the pose as it is. Exact where scales are uniform, mirrored or not.
 ///
 /// @param weight  0 leaves the pose as it is and 1 looks, bit for bit; between, each joint turns part of its way
 /// @param pose    local motions of all nodes; those of the joints are changed
