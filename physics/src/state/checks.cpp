@@ -53,6 +53,9 @@ void require_solid(const MassProperties& weighed) {
               ", " + number_text(moments[1]) + " and " + number_text(moments[2]) + " kg m^2");
 }
 
+/// More passes than this would only take their time.
+constexpr int most_iterations = 10'000;
+
 /// Of a body's principal moments of inertia, the least is taken to be at least this part of the greatest.
 constexpr double least_moment = 1e-4;
 
@@ -128,7 +131,9 @@ Motion checked(Motion motion) {
 
 void validate(const WorldSettings& settings) {
   require_finite(settings.gravity, "gravity");
-  require(settings.iterations > 0, "iterations must be at least 1, but are " + std::to_string(settings.iterations));
+  require(settings.iterations >= 1 && settings.iterations <= most_iterations,
+          "iterations must be 1 to " + std::to_string(most_iterations) + ", but are " +
+              std::to_string(settings.iterations));
   require(settings.sleep_speed >= 0, "sleep speed must not be negative, but is " + number_text(settings.sleep_speed));
   require(settings.sleep_after >= 0, "sleep_after must not be negative, but is " + number_text(settings.sleep_after));
   require(settings.threads >= 0 && settings.threads <= 256,

@@ -284,6 +284,11 @@ TEST_CASE("contacts of bodies at one point grow with their number and not with i
   }
 }
 
+TEST_CASE("a world that would pass over its contacts for ever is refused") {
+  for (const int iterations : {std::numeric_limits<int>::min(), 0, 10'001, std::numeric_limits<int>::max()})
+    CHECK_THROWS_AS(World({.iterations = iterations}), std::invalid_argument);
+}
+
 TEST_CASE("shapes whose reach no number holds are refused, and are not taken for planes") {
   World world;
   for (const Solid& solid : {Solid(Box{Vec3(1e200, 1, 1)}), Solid(Box{Vec3(1e300, 1e300, 1e300)}), Solid(Sphere{1e31}),

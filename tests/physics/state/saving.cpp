@@ -194,10 +194,13 @@ TEST_CASE("bytes that are no saved world are refused in words, and change nothin
   put(bytes, header + 24, 9, 4);
   seal(bytes);
   refused(bytes, "a saved world has a bad setting: there is no such integrator");
-  bytes = good;
-  put(bytes, header + 28, 0, 4);
-  seal(bytes);
-  refused(bytes, "a saved world has a bad setting: iterations must be at least 1, but are 0");
+  for (const std::uint64_t iterations : {0, 10'001}) {
+    bytes = good;
+    put(bytes, header + 28, iterations, 4);
+    seal(bytes);
+    refused(bytes,
+            "a saved world has a bad setting: iterations must be 1 to 10000, but are " + std::to_string(iterations));
+  }
   bytes = good;
   put(bytes, header + 60, 1ull << 60);
   seal(bytes);

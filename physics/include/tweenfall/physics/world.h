@@ -61,7 +61,7 @@ enum class WorldPlane : std::uint8_t { none, xy, xz, yz };
 struct WorldSettings {
   Vec3 gravity{0, -9.81, 0};  ///< m/s^2
   Integrator integrator = Integrator::exact_quadratic;
-  int iterations = 20;          ///< passes of the contact solver over all contacts of a step
+  int iterations = 20;          ///< passes of the contact solver over all contacts of a step, 1 to 10,000
   double sleep_speed = 0.02;    ///< m/s (and rad/s times size) below which a body counts as still
   double sleep_after = 0.5;     ///< s of stillness after which a body sleeps; infinity: never
   double push_out_speed = 0.5;  ///< greatest speed at which overlapping bodies are pushed apart, m/s
