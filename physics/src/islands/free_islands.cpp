@@ -125,11 +125,11 @@ bool FreeIslands::gather(const IslandContents& island, const std::vector<Body>& 
     if (acted(*link)) groups_.join(slots_[link->a], slots_[link->b]);
   for (const contacts::ContactConstraint* contact : island.contacts)
     if (joins(*contact)) groups_.join(slots_[contact->a], slots_[contact->b]);
-  clear();
   return true;
 }
 
-void FreeIslands::keep_all(std::vector<Body>& bodies, Integrator integrator, double dt) {
+void FreeIslands::keep_all(const IslandContents& island, std::vector<Body>& bodies, Integrator integrator, double dt) {
+  for (Member& member : members_) member.left = bodies[member.index].twist.linear;
   for (std::uint32_t root = 0; root < members_.size(); ++root) {
     if (groups_.of(root) != root) continue;
     group_.clear();
@@ -137,6 +137,13 @@ void FreeIslands::keep_all(std::vector<Body>& bodies, Integrator integrator, dou
       if (groups_.of(i) == root) group_.push_back(members_[i]);
     keep_group(group_, bodies, integrator, dt);
   }
+  if (!handed_on_) handed_on_ = std::make_unique<HandedOn>();
+  handed_on_->begin(members_.size());
+  for (std::uint32_t i = 0; i < members_.size(); ++i) {
+    const Body& body = bodies[members_[i].index];
+    handed_on_->note(i, body.mass().mass * (body.twist.linear - members_[i].left));
+  }
+  handed_on_->hand_on(island, dt, [this](std::uint32_t index) { return slots_[index]; });
 }
 
 void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& bodies, Integrator integrator,

@@ -178,3 +178,64 @@ TEST_CASE("what led bodies pinch moves as their reactions tell, also where it is
         CHECK(pressed > 1000);
       }
 }
+
+TEST_CASE("what is told of blows in the air, and of joints, adds up to how each body moved") {
+  for (const int count : {2, 3, 6})
+    for (const bool joined : {false, true})
+      for (const double restitution : {0.0, 0.5, 1.0}) {
+        if (joined && count == 2) continue;  // they never meet
+        CAPTURE(count);
+        CAPTURE(joined);
+        CAPTURE(restitution);
+        constexpr double dt = 1.0 / 60;
+        std::size_t all = 0, unexplained_ones = 0;
+        for (std::uint64_t seed = 0; seed < 12; ++seed) {
+          World world({.gravity = Vec3::Zero(), .sleep_after = without_end});
+          test::Random random(seed);
+          std::vector<BodyId> bodies;
+          for (int i = 0; i < count; ++i) {
+            BodySettings body{.mass = random.between(0.3, 4), .friction = 0.6, .restitution = restitution};
+            if (i % 3 == 0) body.shape.solid = Box{Vec3(0.3, 0.15, 0.2)};
+            if (i % 3 == 1) body.shape.solid = Capsule{0.15, 0.2};
+            if (i % 3 == 2) body.shape.solid = Sphere{0.25};
+            const double angle = i * 2 * test::pi / count;
+            body.motion.pose = {.position = Vec3(std::cos(angle), std::sin(angle), 0.1 * i),
+                                .rotation = random.rotation()};
+            body.motion.twist = {-2 * body.motion.pose.position + random.vector(0.3), random.vector(3)};
+            bodies.push_back(world.add(body));
+          }
+          if (joined) {
+            const JointFrames held = joint_frames(world.motion(bodies[0]).pose, world.motion(bodies[1]).pose, {});
+            world.add_joint({.a = bodies[0], .b = bodies[1], .frame_a = held.a, .frame_b = held.b});
+          }
+          for (int step = 0; step < 90; ++step) {
+            std::vector<Vec3> unexplained(bodies.size());
+            std::vector<double> size(bodies.size(), 0);
+            for (std::size_t i = 0; i < bodies.size(); ++i)
+              unexplained[i] = -world.mass(bodies[i]).mass * world.twist(bodies[i]).linear;
+            world.step(dt);
+            for (std::size_t i = 0; i < bodies.size(); ++i)
+              unexplained[i] += world.mass(bodies[i]).mass * world.twist(bodies[i]).linear;
+            const auto told = [&](BodyId a, BodyId b, const Vec3& on_b) {
+              unexplained[a.index] += on_b;
+              unexplained[b.index] -= on_b;
+              size[a.index] += on_b.norm();
+              size[b.index] += on_b.norm();
+            };
+            for (const Contact& contact : world.contacts()) {
+              told(contact.a, contact.b, contact.total_impulse);
+              CHECK(contact.impulse >= 0);
+            }
+            for (const JointId joint : world.joints())
+              told(world.joint(joint).a, world.joint(joint).b, dt * world.reading(joint).force);
+            for (std::size_t i = 0; i < bodies.size(); ++i) {
+              all += size[i] > 0 ? 1 : 0;
+              unexplained_ones += unexplained[i].norm() > 1e-9 * (size[i] + 1e-3) ? 1 : 0;
+            }
+          }
+        }
+        // Bodies that nearly touch a struck one may get a little of what it loses, of which no contact is told.
+        REQUIRE(all > 20);
+        CHECK(static_cast<double>(unexplained_ones) <= (count == 2 ? 0 : 0.01) * static_cast<double>(all));
+      }
+}
