@@ -155,3 +155,59 @@ TEST_CASE("what swings on an undamped spring joint keeps its swing and its time,
         CHECK(most < 1 + 0.2 * w * dt);
       }
 }
+
+TEST_CASE("stretched springs on levers, as stiff as they like, swing thin and light bodies without gaining energy") {
+  constexpr double heavy = 1000, length = 1;
+  for (const bool joint : {true, false})
+    for (const double light : {1000.0, 1.0})
+      for (const double stiffness : {1e5, 1e7, 1e9})
+        for (const double lever : {0.5, 1.0, 3.0})
+          for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240})
+            for (const Solid& solid : {Solid(Sphere{0.3}), Solid(Box{{0.5, 0.1, 0.2}}), Solid(Capsule{0.05, 0.5})}) {
+              CAPTURE(joint);
+              CAPTURE(light);
+              CAPTURE(stiffness);
+              CAPTURE(lever);
+              CAPTURE(dt);
+              CAPTURE(std::string(kind_name(solid)));
+              World world({.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()});
+              const Vec3 arm_a(lever, 0.3 * lever, 0), arm_b(-0.7 * lever, 0.2 * lever, 0.5 * lever);
+              BodySettings body{.shape = {solid}, .mass = heavy};
+              body.motion.twist = {Vec3(0, 0.3, 0), Vec3(0.5, 1, 0.2)};
+              const BodyId a = world.add(body);
+              body.mass = light;
+              body.motion = {.pose = {.position = {4, 0, 0}}, .twist = {Vec3(0, -0.5, 0.4), Vec3(1, 2, 3)}};
+              const BodyId b = world.add(body);
+              world.ignore(a, b);
+              if (joint)
+                world.add_joint({.a = a,
+                                 .b = b,
+                                 .frame_a = {.position = arm_a},
+                                 .frame_b = {.position = arm_b},
+                                 .kind = SpringJoint{.length = length, .stiffness = stiffness}});
+              else
+                world.add_force(Spring{.a = a,
+                                       .b = b,
+                                       .anchor_a = arm_a,
+                                       .anchor_b = arm_b,
+                                       .rest_length = length,
+                                       .stiffness = stiffness});
+              const auto energy = [&] {
+                const Pose at_a = world.motion(a).pose, at_b = world.motion(b).pose;
+                const Vec3 between = (at_b.position + at_b.rotation * arm_b) - (at_a.position + at_a.rotation * arm_a);
+                const double stretch = between.norm() - length;
+                return world.kinetic_energy() + 0.5 * stiffness * stretch * stretch;
+              };
+              const Vec3 momentum = heavy * world.twist(a).linear + light * world.twist(b).linear;
+              const double before = energy();
+              double most = 0, size = 0;
+              for (int i = 0; i < 3 / dt; ++i) {
+                world.step(dt);
+                most = std::max(most, energy());
+                size = std::max(size, light * world.twist(b).linear.norm());
+              }
+              CHECK(most < 1.06 * before);  // what steps follow sways by some hundredths
+              CHECK((heavy * world.twist(a).linear + light * world.twist(b).linear - momentum).norm() <
+                    1e-9 * (size + momentum.norm()));
+            }
+}
