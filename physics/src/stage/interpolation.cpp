@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "stage/between.h"
 #include "stage/stage_data.h"
 #include "stage/whole_pose.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 /// Whether the later of two states is shown: near it, a body is where its own velocity takes it.
 bool at_end(const StageState& from, const StageState& to, double time) {
-  return &from == &to || time >= to.time;
+  return !is_between(from, to, time);
 }
 
 bool touched(const StageState& state, BodyId body) {

@@ -255,6 +255,20 @@ TEST_CASE("bytes of another description, of a world, of nothing, or damaged ones
   CHECK(stage.save() == saved);
 }
 
+TEST_CASE("a stage that was loaded at the end of a step shows it, though its time be a hair before that") {
+  Stage stage(busy());
+  stage.advance_to(72 * stage.step() - 1e-10);
+  Stage again(busy());
+  again.load(stage.save());
+  for (NodeId node = 0; node < stage.nodes().size(); ++node) {
+    CAPTURE(stage.nodes()[node].name);
+    const Pose then = stage.world(node).motion.pose, now = again.world(node).motion.pose;
+    CHECK((then.position - now.position).norm() < 1e-8);
+    CHECK((then.rotation.coeffs() - now.rotation.coeffs()).norm() < 1e-8);
+  }
+  CHECK(again.energy().kinetic == doctest::Approx(stage.energy().kinetic));
+}
+
 TEST_CASE("bytes that lie with a right checksum are refused, or make a stage that runs on or says why not") {
   Stage stage(busy());
   for (int frame = 0; frame < 45; ++frame) {

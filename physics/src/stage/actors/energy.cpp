@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "stage/between.h"
 #include "stage/roster/staged_softs.h"
 
 namespace tweenfall {
@@ -38,7 +39,7 @@ StageEnergy energy_of(const StageState& state) {
 
 StageEnergy stage_energy(const StageState& from, const StageState& to, double time) {
   StageEnergy energy = energy_of(to);
-  if (&from == &to || !(time < to.time)) return energy;
+  if (!is_between(from, to, time)) return energy;
   const StageEnergy before = energy_of(from);
   const double part = (time - from.time) / (to.time - from.time);
   const auto mix = [part](double first, double last) { return first + part * (last - first); };

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "stage/actors/named.h"
+#include "stage/between.h"
 
 namespace tweenfall::staging {
 
@@ -124,7 +125,7 @@ StageParticles stage_particles(const StageState& from, const StageState& to, std
     shown.velocities.push_back(velocity);
     shown.numbers.push_back(number);
   };
-  const bool between = &from != &to && time < to.time;
+  const bool between = is_between(from, to, time);
   std::size_t next = 0;
   if (between) {
     const Particles& before = from.particles[index].particles;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "stage/actors/named.h"
+#include "stage/between.h"
 #include "state/checks.h"
 
 namespace tweenfall::staging {
@@ -89,7 +90,7 @@ std::vector<StageWheel> vehicle_wheels(const StageState& from, const StageState&
                                        double time) {
   const std::size_t index = index_called(to.vehicles, name, "vehicle");
   const StagedVehicle& last = to.vehicles[index];
-  const bool between = &from != &to && time < to.time;
+  const bool between = is_between(from, to, time);
   const std::vector<WheelReading>& before = (between ? from : to).vehicles[index].vehicle.readings();
   const std::vector<WheelReading>& after = last.vehicle.readings();
   const double part = between ? (time - from.time) / (to.time - from.time) : 0;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "stage/between.h"
 #include "stage/whole_pose.h"
 
 namespace tweenfall::staging {
@@ -161,7 +162,7 @@ SoftNodes soft_nodes(const StageState& from, const StageState& to, std::string_v
                                 (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
   }
   const SoftId id = found->second;
-  const bool between = &from != &to && time < to.time;
+  const bool between = is_between(from, to, time);
   const World& shown = between ? from.world : to.world;
   SoftNodes nodes;
   const auto start = soft_positions(shown, id), start_rates = soft_velocities(shown, id);
