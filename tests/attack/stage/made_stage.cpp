@@ -42,6 +42,7 @@ void add_clip(Random& random, StageDescription& stage) {
   clip.tracks.push_back({"body1", "color",
                          keyed_curve<Color>({{.time = 0, .value = Color{Vec4(1, 0, 0, 1)}},
                                              {.time = 1, .value = Color{Vec4(0, 0, 1, 1)}}})});
+  clip.tracks.push_back({"body0", "effort", keyed_curve<double>({{.time = 0, .value = 1}, {.time = 1, .value = 2}})});
   clip.events = {{.from = 0.25, .to = 0.25, .name = "mark"}, {.from = 0.4, .to = 0.6, .name = "span"}};
   stage.clips.push_back(clip);
   stage.plays.push_back({.clip = 0, .at = random.between(0, 0.2), .speed = below(random, 5) ? 1 : -0.7});

@@ -7,6 +7,7 @@
 #include <tweenfall/physics/stage/query.h>
 
 #include <cmath>
+#include <variant>
 
 namespace tweenfall::attack {
 
@@ -20,6 +21,15 @@ void read_node(Caller& caller) {
   caller.require(stage.nodes()[node].name == name, "another node is found");
   (void)stage.owner(node), (void)stage.drive(node), (void)stage.look(node);
   if (stage.has_body(node)) caller.require(stage.reaction(node).allFinite(), "a reaction is not finite");
+}
+
+void read_user_tracks(Caller& caller) {
+  for (const std::string& name : caller.stage.user_tracks()) {
+    const UserValue value = caller.stage.user_value(name);
+    if (const auto* number = std::get_if<Sample<double>>(&value))
+      caller.require(std::isfinite(number->value) && std::isfinite(number->rate), "a user track reads no number");
+  }
+  (void)caller.stage.user_value(caller.arguments.name("body0.effort"));
 }
 
 void read_any_node(Caller& caller) {
@@ -121,6 +131,7 @@ void ask_for_neighbors(Caller& caller) {
 std::span<const Call> calls_that_read() {
   static constexpr Call list[] = {{"node", 1, read_node},
                                   {"any node", 1, read_any_node},
+                                  {"user tracks", 1, read_user_tracks},
                                   {"path", 1, read_path},
                                   {"joints", 1, read_joints},
                                   {"collides", 1, read_collides},
