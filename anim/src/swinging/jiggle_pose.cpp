@@ -10,8 +10,8 @@ namespace {
 
 class SwingingChain : public Swing<JiggleState> {
  public:
-  SwingingChain(Changed changed, std::size_t number, JiggleChain chain)
-      : Swing(std::move(changed), number), chain_(std::move(chain)) {}
+  SwingingChain(Changed changed, std::size_t number, double step, JiggleChain chain)
+      : Swing(std::move(changed), number, step), chain_(std::move(chain)) {}
 
  protected:
   void rest(JiggleState& state) const noexcept override {
@@ -59,8 +59,8 @@ std::unique_ptr<Operation> bound(const JigglePose& described, Binder& binder) {
   binder.attempt({"jiggle"}, [&] { chain.emplace(binder.nodes(), settings); });
   if (!chain || !changed.whole) return nullptr;
   for (const std::size_t node : chain->joints()) binder.moves(node);
-  auto operation = std::make_unique<SwingingChain>(
-      std::move(changed), binder.new_swing(1 / described.spring.steps_per_second), *std::move(chain));
+  const double step = 1 / described.spring.steps_per_second;
+  auto operation = std::make_unique<SwingingChain>(std::move(changed), binder.new_swing(step), step, *std::move(chain));
   operation->set_rooms(SwingingChain::own_rooms);
   return operation;
 }

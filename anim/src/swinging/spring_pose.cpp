@@ -12,8 +12,8 @@ namespace {
 
 class SpringyNode : public Swing<NodeSpringState> {
  public:
-  SpringyNode(Changed changed, std::size_t number, NodeSpring spring)
-      : Swing(std::move(changed), number), spring_(std::move(spring)) {}
+  SpringyNode(Changed changed, std::size_t number, double step, NodeSpring spring)
+      : Swing(std::move(changed), number, step), spring_(std::move(spring)) {}
 
  protected:
   void rest(NodeSpringState& state) const noexcept override { state = {}; }
@@ -64,7 +64,7 @@ std::unique_ptr<Operation> bound(const SpringPose& described, Binder& binder) {
   double step = 0;
   for (const std::optional<SpringSettings>& each : {described.position, described.rotation})
     if (each) step = std::max(step, 1 / each->steps_per_second);
-  auto operation = std::make_unique<SpringyNode>(std::move(changed), binder.new_swing(step), *std::move(spring));
+  auto operation = std::make_unique<SpringyNode>(std::move(changed), binder.new_swing(step), step, *std::move(spring));
   operation->set_rooms(SpringyNode::own_rooms);
   return operation;
 }

@@ -21,7 +21,9 @@ class Swing : public Changing {
  public:
   static constexpr std::size_t own_rooms = 5;  // the pose below at another time, two for scratch, and both sides
 
-  Swing(Changed changed, std::size_t number) : Changing(std::move(changed)), number_(number) {}
+  /// @param step  the longest of its grids, s
+  Swing(Changed changed, std::size_t number, double step)
+      : Changing(std::move(changed)), number_(number), step_(step) {}
 
  protected:
   /// Resets a state to the base, at 0 s of a clock, with the size that all states have.
@@ -107,9 +109,9 @@ class Swing : public Changing {
   };
 
   /// The first time after a clock began at which the base may jump, because of a clip in it or of what lies below the
-  /// graph, up to a second beyond the moment: springs look ahead by no more than a step; infinity for none.
+  /// graph, up to two steps beyond the clock or the moment: springs look ahead by no more than one; infinity for none.
   [[nodiscard]] double jump_of_base(const Script& script, const Moment& moment, double from) const noexcept {
-    const double until = moment.time + 1;
+    const double until = std::min(moment.time, next_instant(script.log, from)) + 2 * step_;
     double first = std::numeric_limits<double>::infinity();
     if (base()) first = base()->next_jump(script.log, moment.start, from, until).value_or(first);
     const GraphGround& ground = *script.free.ground;
@@ -154,6 +156,7 @@ class Swing : public Changing {
   }
 
   std::size_t number_;
+  double step_;
 };
 
 }  // namespace tweenfall::graphs
