@@ -168,7 +168,9 @@ ClipClock clock_of(const Rounds& rounds, const Running& at, Side side, const Pac
     const bool at_seam = at_phase == round * rounds.length;
     const bool at_very_end = finite && at_phase >= rounds.total;
     const bool arriving = from_below && running && (round > -rounds.left_out || !finite);
-    if (at_seam && (arriving || (at_very_end && round > -rounds.left_out))) round -= 1;
+    // Before it starts, a play shows what it starts with.
+    const bool starts_from_above = !at.started && at.backwards && (round > -rounds.left_out || !finite);
+    if (at_seam && (arriving || starts_from_above || (at_very_end && round > -rounds.left_out))) round -= 1;
     inside = at_phase - round * rounds.length;
     if (at_very_end && rounds.counted > 0) {
       round = std::ceil(rounds.counted) - 1;

@@ -157,3 +157,23 @@ TEST_CASE("events of a play are the same, whatever it fills") {
     CHECK(told == "first long long last ");
   }
 }
+
+TEST_CASE("before it starts, a play that runs backwards shows what it starts with, however often it loops") {
+  Clip clip{.name = "clip", .duration = 2};
+  clip.tracks = {{"node", "height",
+                  keyed_curve<double>({{.time = 0, .value = 5.0, .ease = Ease::linear()}, {.time = 2, .value = 9.0}})}};
+  for (const LoopMode mode : {LoopMode::once, LoopMode::repeat, LoopMode::repeat_offset, LoopMode::pingpong})
+    for (const double offset : {0.0, 0.5, 2.0})
+      for (const double count : {0.0, 3.0, 3.5}) {
+        if (mode == LoopMode::once && (count > 0 || offset > 1)) continue;
+        CAPTURE(static_cast<int>(mode));
+        CAPTURE(offset);
+        CAPTURE(count);
+        Play play{.clip = 0, .at = 1, .speed = -1};
+        play.offset = offset;
+        play.loop = Loop{mode, count};
+        const ClipClock before = clock_at(play, clip, 0.25, Side::out), starts = clock_at(play, clip, 1, Side::out);
+        CHECK(before.time == starts.time);
+        CHECK(before.cycle == starts.cycle);
+      }
+}
