@@ -345,6 +345,12 @@ class Builder {
   std::size_t name_offset_ = 0, name_length_ = 0;
 };
 
+/// By its mark, or by a byte of 0 in its first letter, which no JSON in UTF-8 has.
+bool is_utf_16(std::string_view text) {
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
+         text.substr(0, 2).find('\0') != std::string_view::npos;
+}
+
 }  // namespace
 
 Tree Tree::parse(std::string text, std::vector<Fault>& faults, const Rules& rules) {
@@ -355,6 +361,10 @@ Tree Tree::parse(std::string text, std::vector<Fault>& faults, const Rules& rule
   const std::size_t largest = std::min(rules.largest, largest_json_text);
   if (content.text.size() > largest) {
     faults.push_back({0, 1, "the text is larger than " + std::to_string(largest >> 20) + " MiB"});
+    return tree;
+  }
+  if (is_utf_16(content.text)) {
+    faults.push_back({0, 1, "this text is UTF-16; save it as UTF-8"});
     return tree;
   }
   Survey survey = json::survey(content.text, rules.comments);

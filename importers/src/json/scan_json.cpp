@@ -154,8 +154,10 @@ class Surveyor {
     if (plain == "NaN" || plain == "nan" || plain == "Infinity" || plain == "infinity" || plain == "inf") {
       note(at, whole.size(), std::string(whole) + " is not a number; numbers are finite");
     } else if (is_huge(whole)) {
+      constexpr std::size_t longest_shown = 40;
       note(at, whole.size(),
-           std::string(whole.substr(0, 40)) + " is too large for a number; the largest is about 1.8e308");
+           std::string(whole.substr(0, longest_shown)) + (whole.size() > longest_shown ? "..." : "") +
+               " is too large for a number; the largest is about 1.8e308");
     } else {
       return end;
     }

@@ -124,3 +124,19 @@ TEST_CASE("of very many problems the first are listed and the others counted, in
     CHECK(seconds_for(make(64000)) < 10);
   }
 }
+
+TEST_CASE("text in UTF-16 is told to be that, with a mark or without, either end first") {
+  using namespace std::string_literals;
+  for (const std::string& text : {"\xff\xfe{\0}\0"s, "\xfe\xff\0{\0}"s, "{\0}\0"s, "\0{\0}"s}) {
+    const std::vector<Problem> problems = problems_in(text);
+    REQUIRE(problems.size() == 1);
+    CHECK(problems.front().message == "this text is UTF-16; save it as UTF-8");
+  }
+}
+
+TEST_CASE("of a number too long to be shown it is told that there is more of it") {
+  const std::vector<Problem> problems = problems_in("{\"tweenfall\": 1, \"x-a\": 1" + std::string(400, '0') + "}");
+  REQUIRE(problems.size() == 1);
+  CHECK(problems.front().message ==
+        "1" + std::string(39, '0') + "... is too large for a number; the largest is about 1.8e308");
+}
