@@ -2,6 +2,7 @@
 
 #include <tweenfall/anim/animation.h>
 #include <tweenfall/anim/crowd.h>
+#include <tweenfall/curves/keys.h>
 
 #include <memory>
 
