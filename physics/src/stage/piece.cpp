@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "handoff/arrival.h"
 #include "stage/drive_frame.h"
 #include "stage/roster/staged_softs.h"
 #include "stage/rules/played_tracks.h"
@@ -103,9 +104,11 @@ const Motion& bearable(const StageState& state, const StagedBody& body, const Mo
 
 void set_targets(StageState& state, double end) {
   // A path that jumps just before the end is followed to the jump and on at its own velocity: the jump is no movement.
-  const double jump = std::min(end, first_jump(state, state.handled, end));
+  // At its own instant, rounded, a clock may already be behind it.
   const double landed = std::max(state.time, std::min(state.handled, end));
-  WholePose leaving_pose(state, landed, Side::out), target_pose(state, jump, Side::in);
+  const double jump = first_jump(state, state.handled, end), before = handing_over::just_before(jump);
+  const double reached = !(jump <= end) ? end : before > landed ? before : jump;
+  WholePose leaving_pose(state, landed, Side::out), target_pose(state, reached, Side::in);
   for (StagedBody& body : state.bodies) {
     if (!body.present || state.world.is_fixed(body.id)) continue;
     const Owner owner = state.world.owner(body.id);
@@ -118,7 +121,7 @@ void set_targets(StageState& state, double end) {
           std::abs(leaving.pose.rotation.dot(here.pose.rotation)) < 1 - 1e-15)
         state.world.set_motion(body.id, bearable(state, body, leaving, "its path"));
     }
-    Motion target = moved_on(rigid(target_pose.at(body)), center, end - jump);
+    Motion target = moved_on(rigid(target_pose.at(body)), center, end - reached);
     if (owner == Owner::driven) target = carried_along(state, body, target, target_pose, end);
     state.world.set_target(body.id, bearable(state, body, target, "its path"));
   }

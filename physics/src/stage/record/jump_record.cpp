@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "handoff/arrival.h"
+
 namespace tweenfall::staging {
 
 namespace {
@@ -63,14 +65,17 @@ void JumpRecorder::take(const Stage& stage, double from, std::span<const TimedIn
     known_.resize(count);
     arriving_.resize(count);
     leaving_.resize(count);
-    animation_->sample(time, arriving_, Side::in);
+    // At its own instant, rounded, a clock may already be behind a jump.
+    const double before = handing_over::just_before(time);
+    animation_->sample(before, arriving_, Side::in);
+    for (Motion& motion : arriving_) motion = handing_over::carried_on(motion, time - before);
     animation_->sample(time, leaving_, Side::out);
     for (NodeId node = 0; node < count; ++node) {
       if (!stage.contains(node)) continue;
       const bool follows =
           !stage.has_body(node) || (stage.owner(node) == Owner::keyed && stage.path(node).clock() == ClockOverride{});
       if (follows && differs(arriving_[node], leaving_[node])) add(time, node, JumpRecord::Kind::motion);
-      const NodeLook in = animation_->look(node, time, Side::in), out = animation_->look(node, time);
+      const NodeLook in = animation_->look(node, before, Side::in), out = animation_->look(node, time);
       if (differs(in.color, out.color)) add(time, node, JumpRecord::Kind::color);
       if (differs(in.weights, out.weights)) add(time, node, JumpRecord::Kind::weights);
     }

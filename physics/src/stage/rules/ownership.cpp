@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "handoff/arrival.h"
 #include "stage/rules/overlaps.h"
 #include "stage/rules/ramps.h"
 #include "stage/stage_data.h"
@@ -20,7 +21,7 @@ Motion about_center(Motion motion, const Vec3& center) {
 
 /// What an engine that differences its frames would hand over: the mean twist of the last `span` seconds.
 Twist mean_twist(const Path& path, double time, double span, const Vec3& center) {
-  const Motion now = path.at(time, Side::in), earlier = path.at(time - span, Side::out);
+  const Motion now = handing_over::arriving(path, time).motion, earlier = path.at(time - span, Side::out);
   const Quat turned = hemisphere_aligned(now.pose.rotation * earlier.pose.rotation.conjugate(), Quat(1, 0, 0, 0));
   return {(center_of(now, center) - center_of(earlier, center)) / span, log_map(turned) / span};
 }
@@ -146,7 +147,8 @@ std::shared_ptr<const std::vector<SettlingNode>> settling_below(const StageState
 bool is_vetoed(const StageState& state, const StagedBody& body, double instant, const TakeOver& take_over,
                std::vector<Happening>& happenings) {
   if (take_over.overlap != TakeOver::Overlap::veto) return false;
-  const std::vector<BodyId> others = bodies_in(state, body, rigid(body.path.at(instant, Side::in)).pose);
+  const std::vector<BodyId> others =
+      bodies_in(state, body, rigid(handing_over::arriving(body.path, instant).motion).pose);
   if (others.empty()) return false;
   StageEvent event;
   event.time = instant;
@@ -160,7 +162,7 @@ bool is_vetoed(const StageState& state, const StagedBody& body, double instant, 
 
 /// Lets the body pass through what it overlaps until they are apart.
 void pass_through(StageState& state, const StagedBody& body, double instant) {
-  for (const BodyId& other : bodies_in(state, body, rigid(body.path.at(instant, Side::in)).pose)) {
+  for (const BodyId& other : bodies_in(state, body, rigid(handing_over::arriving(body.path, instant).motion).pose)) {
     state.world.ignore(body.id, other);
     state.passing.emplace_back(body.id, other);
   }
@@ -202,7 +204,7 @@ bool change_owner(StageState& state, std::size_t index, const OwnerChange& chang
   if (handoff.from == Owner::keyed) {
     if (take_over.overlap == TakeOver::Overlap::ignore) pass_through(state, body, instant);
     // The motion shown up to now is the one that arrives.
-    body.shown = body.sized(instant, body.path.world(instant, Side::in));
+    body.shown = body.sized(instant, handing_over::arriving(body.path, instant));
     body.released_at = instant;
     Motion motion = rigid(body.shown.motion);
     handoff.before = handoff.after = about_center(motion, center);
