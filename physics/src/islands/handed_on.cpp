@@ -44,7 +44,7 @@ void HandedOn::join(const Link& link) {
   tree_.push_back(link);
 }
 
-/// A contact that pushes still does afterwards.
+/// A contact that pushes still does afterwards, and one that does not, does not: the next step asks for that.
 void HandedOn::tell(const Link& link, const Vec3& on_b, double dt) {
   if (link.joint) {
     link.joint->joint->force += on_b / dt;
@@ -52,7 +52,7 @@ void HandedOn::tell(const Link& link, const Vec3& on_b, double dt) {
   }
   PointConstraint& point = hardest_of(*link.contact);
   const Vec3& normal = link.contact->manifold.normal;
-  const double more = std::max(on_b.dot(normal), -0.5 * point.total_normal);
+  const double more = point.total_normal > 0 ? std::max(on_b.dot(normal), -0.5 * point.total_normal) : 0;
   point.total_normal += more;
   point.total_friction += on_b - more * normal;
 }
