@@ -10,7 +10,7 @@ using test::near;
 namespace {
 
 /// A ball with a core low in it, 1 kg in all.
-BodySettings tumbler() {
+BodySettings weighed_tumbler() {
   const MassProperties shell = mass_properties(Shape{Sphere{0.1}}, 0.4);
   Shape core{Sphere{0.03}};
   core.offset.position = {0, -0.05, 0};
@@ -22,7 +22,7 @@ BodySettings tumbler() {
 
 TEST_CASE("a ball that is heavier below rocks upright with the period of its closed form") {
   // Rolling without slip, small swings: w^2 = m g d / (I + m (R - d)^2), d from the middle to the center of mass.
-  BodySettings ball = tumbler();
+  BodySettings ball = weighed_tumbler();
   const MassProperties mass = *ball.mass_properties;
   CHECK(near(mass.center, Vec3(0, -0.03, 0), 1e-15));
   World world({.sleep_after = std::numeric_limits<double>::infinity()});
@@ -54,7 +54,7 @@ TEST_CASE("a weighed body that is saved and loaded, or copied, goes on to the sa
   World world;
   world.add({.shape = {Plane{}}, .fixed = true});
   for (int i = 0; i < 3; ++i) {
-    BodySettings ball = tumbler();
+    BodySettings ball = weighed_tumbler();
     ball.motion.pose.position = {0.05 * i, 0.2 + 0.25 * i, 0};
     world.add(ball);
   }
@@ -68,7 +68,7 @@ TEST_CASE("a weighed body that is saved and loaded, or copied, goes on to the sa
 }
 
 TEST_CASE("a stage hands mass properties on, keeps them when it is saved, and not on a scaled node") {
-  const BodySettings ball = tumbler();
+  const BodySettings ball = weighed_tumbler();
   NodeDescription node{.name = "ball",
                        .body = BodyDescription{.shape = ball.shape, .mass_properties = ball.mass_properties}};
   node.rest.position = {0, 3, 0};
@@ -90,12 +90,12 @@ TEST_CASE("mass properties that no body can have are refused") {
   };
   const MassProperties rod = mass_properties(std::vector<PointMass>{{1, {0, 0, 0}}, {2, {0.6, 0, 0}}});
   CHECK_THROWS_WITH(added(rod), doctest::Contains("a body needs a moment of inertia about every axis"));
-  CHECK_THROWS_WITH(added(*tumbler().mass_properties, Plane{}, true),
+  CHECK_THROWS_WITH(added(*weighed_tumbler().mass_properties, Plane{}, true),
                     "a plane has no mass, so it takes no mass properties");
-  MassProperties skewed = *tumbler().mass_properties;
+  MassProperties skewed = *weighed_tumbler().mass_properties;
   skewed.inertia(0, 0) *= 5;
   CHECK_THROWS_WITH(added(skewed), doctest::Contains("exceed the sum of the others"));
-  BodySettings both = tumbler();
+  BodySettings both = weighed_tumbler();
   both.mass = 1;
   CHECK_THROWS_WITH(world.add(both), "a body takes a mass or mass properties, not both");
 }
