@@ -43,21 +43,10 @@ void add_springiness(const std::vector<Body>& bodies, const Spring& spring, doub
     if (!moves(body)) return 0.0;
     return 1 / body.mass().mass + (anchor - body.mass().center).squaredNorm() * body.inverse_inertia().norm();
   };
-  // A body also swings into the line of a spring that pulls at its lever.
-  const auto turned_into_line = [](const Body& body, const Vec3& anchor) {
-    return moves(body) ? (anchor - body.mass().center).norm() * body.inverse_inertia().norm() : 0.0;
-  };
-  const auto place_of = [](const Body& body, const Vec3& anchor) -> Vec3 {
-    return body.motion.pose.position + body.motion.pose.rotation * anchor;
-  };
-  const Vec3 between = (b ? place_of(*b, spring.anchor_b) : spring.anchor_b) - place_of(*a, spring.anchor_a);
-  const double tension = spring.stiffness * std::abs(between.norm() - spring.rest_length);
   const double stiffness = spring.stiffness * dt * dt + spring.damping * dt;
   const double felt = inverse_mass(*a, spring.anchor_a) + (b ? inverse_mass(*b, spring.anchor_b) : 0);
-  const double turned = turned_into_line(*a, spring.anchor_a) + (b ? turned_into_line(*b, spring.anchor_b) : 0);
-  const double its = stiffness * felt + tension * dt * dt * turned;
-  if (moves(*a)) loads[spring.a.index].springiness += its;
-  if (b && moves(*b)) loads[spring.b.index].springiness += its;
+  if (moves(*a)) loads[spring.a.index].springiness += stiffness * felt;
+  if (b && moves(*b)) loads[spring.b.index].springiness += stiffness * felt;
 }
 
 /// The start of a step, or its end, with bodies where they would be if loads did not change during the step.

@@ -10,7 +10,6 @@
 #include "forces/drive_law.h"
 #include "islands/jointed_energy.h"
 #include "islands/pinched.h"
-#include "islands/sprung_energy.h"
 #include "islands/squeezed.h"
 #include "state/world_data.h"
 #include "step/keyed_step.h"
@@ -275,10 +274,7 @@ void World::Implementation::solve_islands(double dt) {
   for (const islands::IslandContents& island : all)
     if (!goes_by_strategies(island)) free_islands.keep(island, bodies, loads, moved, settings.integrator, dt, start_of);
   for (const islands::IslandContents& island : all)
-    if (!goes_by_strategies(island)) {
-      islands::bound_jointed(island, bodies, loads, moved, dt, start_of);
-      islands::bound_sprung(island, bodies, loads, moved, dt, start_of);
-    }
+    if (!goes_by_strategies(island)) islands::bound_jointed(island, bodies, loads, moved, dt, start_of);
   if (std::any_of(solvers.begin(), solvers.begin() + static_cast<std::ptrdiff_t>(shares),
                   [](const step::Solvers& one) { return one.many.shifts(); }))
     for (const islands::IslandContents& island : all)
