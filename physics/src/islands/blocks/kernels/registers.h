@@ -101,7 +101,7 @@ template <class Register>
 TWEENFALL_LANES auto at_least(const Register& a, const Register& b) {
   return a >= b;
 }
-#if defined(__x86_64__) || defined(__i386__)
+#if (defined(__x86_64__) || defined(__i386__)) && !defined(__clang__)
 // g++ combines several comparisons of eight numbers one by one, unless each of them has to be in a register.
 TWEENFALL_LANES EightMasks in_register(EightMasks which) {
   asm("" : "+v"(which));
