@@ -5,6 +5,7 @@
 #include "operations/account.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tweenfall::graphs {
 
@@ -78,11 +79,13 @@ class Layered : public Operation {
           product({reach, 0, 0}, as_share(layer.weight.sample(log, moment.time, moment.side), moment.side));
       if (is_nothing(own)) continue;
       const Sample<double> part = product(left, own);
+      const bool within = std::exchange(out.adding, out.adding || layer.adds);
       layer.pose->bearers(log, moment, node, part, out);
       if (!layer.adds)
         left = product(left, rest_of(own));
       else if (layer.reference)
         layer.reference->bearers(log, moment, node, {-part.value, -part.rate, -part.acceleration}, out);
+      out.adding = within;
     }
     if (base_ && !is_nothing(left)) base_->bearers(log, moment, node, left, out);
   }

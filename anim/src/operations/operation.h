@@ -50,6 +50,7 @@ struct Bearer {
   std::size_t clip;  // index among the clips of the operation
   double start;      // of the state around it
   Sample<double> weight;
+  bool added = false;  // a layer adds it, on top of shares that sum to 1
 
   [[nodiscard]] bool is(const Bearer& other) const noexcept {
     return operation == other.operation && clip == other.clip && start == other.start;
@@ -60,8 +61,9 @@ struct Bearers {
   static constexpr std::size_t most = 64;
   std::array<Bearer, most> list;
   std::size_t count = 0;
-  bool flow = false;  // their weights may change without an input
-  bool adds = false;  // layers that add count, too, and their references as much below 0
+  bool flow = false;    // their weights may change without an input
+  bool adds = false;    // layers that add count, too, and their references as much below 0
+  bool adding = false;  // what comes now is of such a layer
 
   [[nodiscard]] const Bearer* find(const Bearer& wanted) const noexcept {
     for (std::size_t i = 0; i < count; ++i)
@@ -71,12 +73,14 @@ struct Bearers {
   /// Adds a clip; one that shows in several places is listed once, with all its weight.
   void add(const Bearer& bearer) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
-      if (!list[i].is(bearer)) continue;
+      if (!list[i].is(bearer) || list[i].added != adding) continue;
       list[i].weight.value += bearer.weight.value;
       list[i].weight.rate += bearer.weight.rate;
       return;
     }
-    if (count < most) list[count++] = bearer;
+    if (count == most) return;
+    list[count] = bearer;
+    list[count++].added = adding;
   }
 };
 

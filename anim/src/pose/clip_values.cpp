@@ -89,8 +89,15 @@ template <class T>
 UserValue mean_of_kind(std::span<const UserValue> values, std::span<const Sample<double>> weights) {
   if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
     std::size_t heaviest = 0;
-    for (std::size_t i = 1; i < values.size(); ++i)
-      if (weights[i].value > weights[heaviest].value) heaviest = i;
+    double most = -1;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      double sum = 0;
+      for (std::size_t k = i; k < values.size(); ++k)
+        if (std::get<T>(values[k]) == std::get<T>(values[i])) sum += weights[k].value;
+      if (sum <= most) continue;
+      heaviest = i;
+      most = sum;
+    }
     return values[heaviest];
   } else if constexpr (std::is_same_v<T, std::vector<Sample<double>>>) {
     std::vector<Sample<double>> all;
@@ -147,6 +154,29 @@ UserValue user_value_of(const TrackCurve& curve, const ClipClock& clock) {
 UserValue mean_of(std::span<const UserValue> values, std::span<const Sample<double>> weights) {
   return std::visit([&](const auto& first) { return mean_of_kind<std::decay_t<decltype(first)>>(values, weights); },
                     values.front());
+}
+
+bool has_sums(const UserValue& value) noexcept {
+  return !std::holds_alternative<Sample<Quat>>(value) && !std::holds_alternative<bool>(value) &&
+         !std::holds_alternative<std::string>(value);
+}
+
+void add_share(UserValue& sum, const UserValue& value, const Sample<double>& share) {
+  const auto add = [&]<class T>(T& to) {
+    if constexpr (std::is_same_v<T, std::vector<Sample<double>>>) {
+      const T& all = std::get<T>(value);
+      if (to.size() < all.size()) to.resize(all.size(), Sample<double>{0, 0, 0});
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        add_share(to[i], all[i], share);
+        to[i].acceleration = 0;
+      }
+    } else if constexpr (!std::is_same_v<T, bool> && !std::is_same_v<T, std::string> &&
+                         !std::is_same_v<T, Sample<Quat>>) {
+      add_share(to, std::get<T>(value), share);
+      to.acceleration *= 0;
+    }
+  };
+  std::visit(add, sum);
 }
 
 }  // namespace tweenfall::pose

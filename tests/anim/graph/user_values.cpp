@@ -129,6 +129,72 @@ TEST_CASE("layers that add, add morph weights and colors") {
   CHECK(near(look.color->value.rgba, Vec4(0.15, 0.4, 0.6, 1), 1e-15));
 }
 
+TEST_CASE("layers add neither switches nor texts") {
+  const auto adding = [](std::string base, std::string added) {
+    return player_of({.poses = {{"all", LayersPose{.base = std::move(base),
+                                                   .layers = {{.pose = std::move(added), .adds = true}}}}}});
+  };
+  GraphPlayer lacks_them = adding("walk", "jump");
+  CHECK(std::get<std::string>(lacks_them.user_value_at("lower.mood", 0.5)) == "quick");
+  CHECK(std::get<bool>(lacks_them.user_value_at("lower.lit", 0.5)));
+  GraphPlayer has_others = adding("walk", "idle");
+  CHECK(std::get<std::string>(has_others.user_value_at("lower.mood", 0.5)) == "quick");
+  CHECK(std::get<bool>(has_others.user_value_at("lower.lit", 0.5)));
+}
+
+TEST_CASE("of switches and texts that several clips share, the weights count together") {
+  std::vector<Clip> clips = clips_with_values();
+  clips[2].tracks.push_back({"lower", "lit", StepCurve<bool>({{0, false}})});
+  clips[2].tracks.push_back({"lower", "mood", StepCurve<std::string>({{0, "calm"}})});
+  const auto shared = std::make_shared<const std::vector<Clip>>(std::move(clips));
+  const auto shown = [&](double of_walk) {
+    return GraphPlayer(
+        graph_of({.poses = {{"all", BlendPose{{{"walk", of_walk}, {"idle", 0.3}, {"jump", 0.3}}}}}}, shared));
+  };
+  GraphPlayer less = shown(0.4), more = shown(0.7);
+  CHECK(std::get<std::string>(less.user_value_at("lower.mood", 0.5)) == "calm");
+  CHECK_FALSE(std::get<bool>(less.user_value_at("lower.lit", 0.5)));
+  CHECK(std::get<std::string>(more.user_value_at("lower.mood", 0.5)) == "quick");
+  CHECK(std::get<bool>(more.user_value_at("lower.lit", 0.5)));
+}
+
+TEST_CASE("layers add colors number by number, over nothing, over a reference and over a mix") {
+  std::vector<Clip> clips = *three_clips();
+  const Color own[] = {{Vec4(0, 0, 1, 1)}, {Vec4(1, 0, 0, 1)}, {Vec4(0, 1, 0, 0.5)}};
+  for (std::size_t c = 0; c < 3; ++c)
+    for (const char* name : {"glow", "color"}) clips[c].tracks.push_back({"upper", name, Curve<Color>(own[c])});
+  using Layer = LayersPose::Layer;
+  const auto shown = [&](std::string base, const Layer& layer) {
+    const GraphDescription description{.poses = {{"mixed", BlendPose{{{"idle", 1.0}, {"jump", 1.0}}}},
+                                                 {"all", LayersPose{.base = std::move(base), .layers = {layer}}}}};
+    return Animation(limb(), clips, {}).with_graphs({description});
+  };
+  const auto glow = [](const Animation& animation, double time = 0.5) {
+    return std::get<Sample<Color>>(animation.user_value("upper.glow", time));
+  };
+  const auto color = [](const Animation& animation) { return animation.look(1, 0.5).color->value.rgba; };
+
+  // Nothing below a track of the user's own is transparent black, and below a node's color it is white.
+  const Animation whole = shown("idle", {.pose = "walk", .adds = true});
+  CHECK(near(glow(whole).value.rgba, Vec4(1, 0, 1, 2), 1e-15));
+  CHECK(near(color(whole), Vec4(0, -1, 0, 1), 1e-15));
+  const Animation quarter = shown("idle", {.pose = "walk", .adds = true, .weight = 0.25});
+  CHECK(near(glow(quarter).value.rgba, Vec4(0.25, 0, 1, 1.25), 1e-15));
+  const Animation differing = shown("idle", {.pose = "walk", .adds = true, .reference = "jump"});
+  CHECK(near(glow(differing).value.rgba, Vec4(1, -1, 1, 1.5), 1e-15));
+  CHECK(near(color(differing), Vec4(1, -1, 1, 1.5), 1e-15));
+
+  // What is below is mixed on premultiplied coordinates first: (0, 1/3, 2/3) with an alpha of 3/4.
+  const Animation over_mix = shown("mixed", {.pose = "walk", .adds = true, .reference = "idle", .weight = 0.5});
+  CHECK(near(glow(over_mix).value.rgba, Vec4(0.5, 1.0 / 3, 2.0 / 3 - 0.5, 0.75), 1e-15));
+  CHECK(near(color(over_mix), Vec4(0.5, 1.0 / 3, 2.0 / 3 - 0.5, 0.75), 1e-15));
+
+  // A weight that rises by 1/4 per second brings the difference in at that rate.
+  const Animation rising = shown("idle", {.pose = "walk", .adds = true, .reference = "jump", .weight = ramp(0, 0.5)});
+  CHECK(near(glow(rising, 1).value.rgba, Vec4(0.25, -0.25, 1, 1.125), 1e-15));
+  CHECK(near(glow(rising, 1).rate, Vec4(0.25, -0.25, 0, 0.125), 1e-15));
+}
+
 TEST_CASE("what an animation shows of colors and morph weights is what its graphs make of them") {
   std::vector<Clip> clips = *three_clips();
   for (std::size_t c = 0; c < 2; ++c)

@@ -120,7 +120,8 @@ class GraphPlayer {
   /// Color and morph weights of a node, at any time: the mean over the clips that show, by their weights, and what
   /// layers add. Operations do not change them; where a machine settles, they fade.
   [[nodiscard]] NodeLook look_at(std::size_t node, double time, Side side = Side::out);
-  /// The value of a user track, "node.property", at any time, mixed in the same way; layers do not add rotations.
+  /// The value of a user track, "node.property", at any time, mixed in the same way. Layers add numbers, vectors
+  /// and colors (these number by number, alpha too), but no rotations, switches and texts.
   /// Clips without the track show what lies below, as at `Animation::user_value`.
   /// @throws std::invalid_argument with the nearest name
   [[nodiscard]] UserValue user_value_at(std::string_view track, double time, Side side = Side::out);
