@@ -3,7 +3,7 @@
 #include <tweenfall/curves/nearest_name.h>
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -19,6 +19,7 @@ using pose::Parts;
 
 struct Animation::BoundClips {
   std::vector<BoundClip> clips;
+  std::map<std::string, const Track*, std::less<>> user_tracks;  // the first of each name
 };
 
 struct Animation::BoundPlays {
@@ -27,7 +28,8 @@ struct Animation::BoundPlays {
     std::vector<Parts> below;  // by entry of the clip: the parts of the node that plays below drive
   };
   std::vector<OfPlay> plays;
-  std::vector<char> animated;  // by node: it or an ancestor is moved by some play
+  std::map<const Track*, std::vector<std::size_t>> by_user_track;  // by the first of its name: the plays that drive it
+  std::vector<char> animated;                                      // by node: it or an ancestor is moved by some play
 };
 
 namespace pose {
@@ -69,7 +71,6 @@ struct Running {
   ClipClock clock{};
   Sample<double> weight{1, 0, 0};
   const std::vector<char>* masked = nullptr;  // null: the whole clip
-  const std::vector<std::string>* mask = nullptr;
   const std::vector<Parts>* below = nullptr;  // null: all or nothing, by the next member
   bool covered = false;
   bool yields = false;  // it has not begun, and what is below comes first
@@ -94,6 +95,37 @@ void lay_over(const Running& running, std::uint32_t entry, const Hierarchy& node
   running.clip->sample_entry(entry, nodes, running.clock, over);
   take(parts, is_whole(weight) ? over : mix(motion, over, weight.value, weight.rate), motion);
 }
+
+/// A user track as plays lie over each other. What has rates is mixed one by one, as poses are; of switches and texts
+/// one shows, so that all of them are kept with what is left of their weights.
+class Laid {
+ public:
+  explicit Laid(UserValue nothing)
+      : one_shows_(std::holds_alternative<bool>(nothing) || std::holds_alternative<std::string>(nothing)),
+        values_{std::move(nothing)},
+        weights_{{1, 0, 0}} {}
+
+  void lay_over(UserValue over, const Sample<double>& weight) {
+    if (is_whole(weight)) {
+      values_.clear();
+      weights_.clear();
+    } else if (!one_shows_) {
+      values_ = {value()};
+      weights_ = {{1, 0, 0}};
+    }
+    for (Sample<double>& below : weights_)
+      below = {below.value * (1 - weight.value), below.rate * (1 - weight.value) - below.value * weight.rate, 0};
+    // Of equal ones the upper shows, so it comes first.
+    values_.insert(values_.begin(), std::move(over));
+    weights_.insert(weights_.begin(), weight);
+  }
+  [[nodiscard]] UserValue value() const { return values_.size() == 1 ? values_.front() : mean_of(values_, weights_); }
+
+ private:
+  bool one_shows_;
+  std::vector<UserValue> values_;
+  std::vector<Sample<double>> weights_;
+};
 
 Motion at_rest_on(const Node& node) noexcept {
   Motion motion;
@@ -209,7 +241,11 @@ Animation Animation::with_more_nodes(std::shared_ptr<const Hierarchy> nodes) con
 void Animation::bind_clips(std::string problems) {
   auto bound = std::make_shared<BoundClips>();
   bound->clips.reserve(clips_->size());
-  for (const Clip& clip : *clips_) bound->clips.emplace_back(clip, *nodes_, problems);
+  for (const Clip& clip : *clips_) {
+    bound->clips.emplace_back(clip, *nodes_, problems);
+    for (const Track& track : clip.tracks)
+      if (pose::is_user_track(track)) bound->user_tracks.emplace(track.name(), &track);
+  }
   if (!problems.empty()) throw std::invalid_argument("clips do not fit their nodes:" + problems);
   bound_clips_ = std::move(bound);
 }
@@ -228,6 +264,13 @@ void Animation::bind_plays() {
       if (!driven) continue;
       below[entry.node] |= entry.parts;
       if (entry.parts) bound->animated[entry.node] = 1;
+    }
+    for (const Track& track : (*clips_)[play.clip].tracks) {
+      if (!pose::is_user_track(track) || !pose::passes(play.mask, track.node)) continue;
+      const std::string name = track.name();
+      if (bound_clips_->clips[play.clip].user_track(name) != &track) continue;
+      const Track* first = bound_clips_->user_tracks.find(name)->second;
+      if (track.curve.index() == first->curve.index()) bound->by_user_track[first].push_back(bound->plays.size() - 1);
     }
   }
   for (std::size_t node = 0; node < nodes_->size(); ++node) {
@@ -273,7 +316,6 @@ void Animation::for_each_running(double stage_time, Side side, const ClockOverri
     pose::Running running{.clip = &bound_clips_->clips[play->play().clip]};
     if (!alone) {
       running.masked = &bound_plays_->plays[p].masked;
-      running.mask = &play->play().mask;
       running.below = &bound_plays_->plays[p].below;
     }
     running.covered = covered;
@@ -367,26 +409,26 @@ std::vector<std::string> Animation::user_tracks() const {
 }
 
 UserValue Animation::user_value(std::string_view track, double stage_time, Side side) const {
-  const Track& named = pose::user_track_named(*clips_, track);
+  const auto named = bound_clips_->user_tracks.find(track);
+  if (named == bound_clips_->user_tracks.end()) static_cast<void>(pose::user_track_named(*clips_, track));  // throws
   if (graphs_) return graphs_->user_value(track, stage_time, side);
-  UserValue value = pose::nothing_of(named.curve);
+  pose::Laid laid(pose::nothing_of(named->second->curve));
+  const auto places = bound_plays_->by_user_track.find(named->second);
+  if (places == bound_plays_->by_user_track.end()) return laid.value();
   bool found = false;
-  const auto has_it = [&](const pose::Running& running) {
-    const Track* own = running.clip->user_track(track);
-    return own && own->curve.index() == value.index() && pose::passes(*running.mask, own->node);
-  };
-  for_each_running(stage_time, side, {}, has_it, [&](const pose::Running& running) {
-    const bool yields = running.yields && found;
-    found = true;
-    if (yields || pose::is_nothing(running.weight)) return;
-    UserValue over = pose::user_value_of(running.clip->user_track(track)->curve, running.clock);
-    const Sample<double>& weight = running.weight;
-    const Sample<double> left{1 - weight.value, -weight.rate, -weight.acceleration};
-    value = pose::is_whole(weight)
-                ? std::move(over)
-                : pose::mean_of(std::array{std::move(over), std::move(value)}, std::array{weight, left});
-  });
-  return value;
+  for (const std::size_t place : places->second) {
+    const std::optional<RunningPlay> play = running({}, place);
+    if (!play || play->is_gone(stage_time, side)) continue;
+    const TrackCurve& curve = bound_clips_->clips[play->play().clip].user_track(track)->curve;
+    const PlayVoices voices = play->voices(stage_time, side);
+    for (std::size_t i = 0; i < voices.count; ++i) {
+      const auto& [clock, weight] = voices.list[i];
+      const bool yields = found && !clock.started && !fills_before(play->play().fill);
+      found = true;
+      if (!yields && !pose::is_nothing(weight)) laid.lay_over(pose::user_value_of(curve, clock), weight);
+    }
+  }
+  return laid.value();
 }
 
 bool Animation::animates(std::size_t node) const noexcept {

@@ -224,6 +224,23 @@ TEST_CASE("plays mix user tracks by their weights, fades and masks, the ends bit
   CHECK(std::get<std::string>(masked.user_value("lower.mood", 0.5)) == "calm");
 }
 
+TEST_CASE("of texts in plays over each other, the one with the largest weight of all shows") {
+  // .45 over .45 over 1 leaves .55 * .55 = .3025 of the lowest, and .55 * .45 = .2475 of the one in between.
+  const auto shown = [](const std::vector<std::string>& moods) {
+    std::vector<Clip> clips = *three_clips();
+    std::vector<Play> plays;
+    for (std::size_t c = 0; c < 3; ++c) {
+      clips[c].tracks.push_back({"lower", "mood", StepCurve<std::string>({{0, moods[c]}})});
+      plays.push_back({.clip = c, .weight = Curve<double>(c == 0 ? 1.0 : 0.45)});
+    }
+    return std::get<std::string>(Animation(limb(), clips, plays).user_value("lower.mood", 0.5));
+  };
+  CHECK(shown({"low", "middle", "high"}) == "high");
+  CHECK(shown({"low", "low", "high"}) == "low");
+  CHECK(shown({"same", "other", "same"}) == "same");
+  CHECK(shown({"low", "high", "high"}) == "high");
+}
+
 TEST_CASE("a user track gains in each round of a loop with offset, and is of the kind that its first clip gives it") {
   std::vector<Clip> clips = *three_clips();
   clips[0].loop = {.mode = LoopMode::repeat_offset};
