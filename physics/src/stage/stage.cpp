@@ -14,6 +14,7 @@
 #include "stage/actors/particles.h"
 #include "stage/actors/vehicles.h"
 #include "stage/roster/staged_softs.h"
+#include "stage/rules/played_tracks.h"
 #include "stage/rules/ramps.h"
 #include "stage/saving/stage_hash.h"
 #include "stage/stage_implementation.h"
@@ -168,9 +169,7 @@ NodeLook Stage::look(NodeId node) const {
 
 std::vector<std::string> Stage::user_tracks() const {
   std::vector<std::string> names = inside().current().animation->user_tracks();
-  std::erase_if(names, [](const std::string& name) {
-    return name.ends_with(".drive_hz") || name.ends_with(".surface_velocity");
-  });
+  std::erase_if(names, staging::drives_a_body);
   return names;
 }
 

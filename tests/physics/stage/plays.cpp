@@ -203,3 +203,54 @@ TEST_CASE("what cannot be asked changes nothing, and says what is wrong") {
   const TimedInput behind{0.2, input::Ask{"walk", playing::Stop{}}};
   CHECK_THROWS_AS(static_cast<void>(advance_with(stage, {&behind, 1}, 1)), std::invalid_argument);
 }
+
+TEST_CASE("the texts and weights of user tracks count in the memory that a recording may take") {
+  constexpr double megabyte = 1024 * 1024;
+  StageDescription description = carried();
+  SUBCASE("a text") {
+    using Texts = StepCurve<std::string>;
+    description.clips[0].tracks.push_back({"ball", "word", Texts({{0.0, std::string(1 << 20, 'x')}})});
+  }
+  SUBCASE("weights") {
+    // A weight has a value, a rate and an acceleration.
+    description.clips[0].tracks.push_back({"ball", "smiles", WeightCurves((1 << 20) / 24, Curve<double>(0.5))});
+  }
+  Stage enough(description), short_of_it(description);
+  // 11 frames, of which each has one.
+  CHECK(record(enough, 1, 10, 11.1 * megabyte).user_tracks.at(0).value.size() == 11);
+  CHECK_THROWS_WITH_AS((void)record(short_of_it, 1, 10, 10.9 * megabyte),
+                       doctest::Contains("by 1 s a recording of the user tracks takes more memory than is allowed"),
+                       std::invalid_argument);
+}
+
+TEST_CASE("what frames need is not allowed once more to user tracks") {
+  StageDescription description = carried();
+  description.clips[0].tracks.push_back({"ball", "word", StepCurve<std::string>({{0.0, std::string(5000, 'x')}})});
+  // 101 frames of 5 kB in texts and at least .5 kB in two nodes.
+  static_assert(2 * sizeof(WorldMotion) > 500);
+  Stage stage(description);
+  CHECK_THROWS_WITH_AS((void)record(stage, 1, 100, 101 * 5500.0), doctest::Contains("user tracks"),
+                       std::invalid_argument);
+}
+
+TEST_CASE("a recording has the user tracks that were played at some time, and nothing else takes memory") {
+  StageDescription description = carried();
+  using Texts = StepCurve<std::string>;
+  description.clips[0].tracks.push_back({"ball", "first", Texts({{0.0, "go"}})});
+  description.clips[0].tracks.push_back({"ball", "drive_hz", Curve<double>(5)});
+  description.clips[1].tracks.push_back({"ball", "second", Texts({{0.0, "up"}})});
+  Clip never{.name = "never", .duration = 1};
+  for (int i = 0; i < 1000; ++i) never.tracks.push_back({"ball", "own" + std::to_string(i), Curve<double>(1)});
+  description.clips.push_back(never);
+  Stage stage(description);
+  const std::vector<TimedInput> inputs = {{.time = 0.5, .what = input::Ask{"lift", playing::Start{}}}};
+  // Those of "never" would take 11,000 values.
+  const Recording recording = record(stage, 1, 10, 1000 * sizeof(UserValue), false, inputs);
+  REQUIRE(recording.user_tracks.size() == 2);
+  CHECK(recording.user_tracks[0].name == "ball.first");
+  CHECK(recording.user_tracks[1].name == "ball.second");
+  for (std::size_t frame = 0; frame < 11; ++frame) {
+    CHECK(std::get<std::string>(recording.user_tracks[0].value.at(frame)) == "go");
+    CHECK(std::get<std::string>(recording.user_tracks[1].value.at(frame)) == (frame < 5 ? "" : "up"));
+  }
+}

@@ -1,14 +1,13 @@
-#include <tweenfall/anim/component.h>
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/physics/stage/recording.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
 #include "stage/record/graph_record.h"
 #include "stage/record/jump_record.h"
+#include "stage/record/user_track_record.h"
 
 namespace tweenfall {
 
@@ -49,27 +48,6 @@ void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& 
       record.weights.push_back(std::move(weights));
     }
   }
-}
-
-/// Those of all clips: a play may start at any time.
-std::vector<UserTrackRecord> user_tracks_of(const StageDescription& description) {
-  std::vector<UserTrackRecord> records;
-  std::set<std::string> known;
-  for (const Clip& clip : description.clips)
-    for (const Track& track : clip.tracks)
-      if (property_named(track.property) == Property::user && !component_named(track.property) &&
-          known.insert(track.name()).second)
-        records.push_back({.name = track.name(), .value = {}});
-  return records;
-}
-
-void take_user_tracks(const Stage& stage, Recording& recording, double& room) {
-  for (UserTrackRecord& record : recording.user_tracks) record.value.push_back(stage.user_value(record.name));
-  room -= static_cast<double>(recording.user_tracks.size() * sizeof(UserValue));
-  if (room < 0)
-    throw std::invalid_argument("by " + number_text(stage.time()) +
-                                " s a recording of the user tracks takes more memory than is allowed: end it earlier, "
-                                "or take fewer frames per second");
 }
 
 /// Joints added later, and those that hold other bodies under the name of one that is gone, have records of their own.
@@ -150,7 +128,8 @@ bool take_details(const Stage& stage, Recording& recording, double& room) {
   return false;
 }
 
-void require_affordable(const Stage& stage, double until, double fps, double most_bytes) {
+/// @return what is left for tracks and particles, whose size is known only as they come, bytes
+double require_affordable(const Stage& stage, double until, double fps, double most_bytes) {
   constexpr double most_steps = 2e7;
   const double length = std::max(0.0, until - stage.time()), frames = length * fps + 1, steps = length / stage.step();
   constexpr double node_bytes = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner);
@@ -169,6 +148,7 @@ void require_affordable(const Stage& stage, double until, double fps, double mos
                                 std::to_string(stage.nodes().size()) + " nodes takes " + whole(bytes / (1024 * 1024)) +
                                 " MiB; " + whole(most_bytes / (1024 * 1024)) +
                                 " are allowed: end it earlier, or take fewer frames per second");
+  return most_bytes - bytes;
 }
 
 void require_tellable(const Stage& stage) {
@@ -203,23 +183,23 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
   if (!(fps > 0) || !std::isfinite(fps))
     throw std::invalid_argument("frames per second must be above 0, not " + number_text(fps));
   if (!std::isfinite(until)) throw std::invalid_argument("a recording needs an end");
-  staging::require_affordable(stage, until, fps, most_bytes);
+  double room = staging::require_affordable(stage, until, fps, most_bytes);
   Recording recording;
   recording.name = stage.description().name;
-  recording.user_tracks = staging::user_tracks_of(stage.description());
+  staging::UserTrackRecorder user_tracks(stage);
   std::vector<WorldMotion> world;
   const double start = stage.time();
-  double room = std::min(most_bytes, 256.0 * 1024 * 1024), particle_room = most_bytes, track_room = most_bytes;
+  double detail_room = std::min(most_bytes, 256.0 * 1024 * 1024);
   const auto take = [&] {
     staging::take_frame(stage, world, recording);
-    staging::take_user_tracks(stage, recording, track_room);
+    user_tracks.take(stage, room);
     staging::take_joints(stage, recording);
     staging::take_softs(stage, recording);
     recording.energy.push_back(stage.energy());
     if (const std::optional<double> off = stage.complementarity()) recording.complementarity.push_back(*off);
     staging::take_vehicles(stage, recording);
-    staging::take_particles(stage, recording, particle_room);
-    if (details) details = staging::take_details(stage, recording, room);
+    staging::take_particles(stage, recording, room);
+    if (details) details = staging::take_details(stage, recording, detail_room);
   };
   staging::JumpRecorder jumps;
   inputs = advance_with(stage, inputs, stage.time());
@@ -242,9 +222,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     if (!node.color.empty()) node.color.resize(recording.times.size(), node.color.back());
     if (!node.weights.empty()) node.weights.resize(recording.times.size(), node.weights.back());
   }
-  const std::vector<std::string> played = stage.user_tracks();
-  std::erase_if(recording.user_tracks,
-                [&](const UserTrackRecord& record) { return std::ranges::find(played, record.name) == played.end(); });
+  recording.user_tracks = std::move(user_tracks).records();
   recording.graphs = staging::graph_records(stage, recording.times);
   for (SoftRecord& soft : recording.softs)
     for (std::size_t& edge : soft.torn_at) edge = std::min(edge, recording.times.size());

@@ -108,6 +108,10 @@ std::vector<PlayedTrack<T>> tracks_of(const StageState& state, const char* prope
 
 }  // namespace
 
+bool drives_a_body(std::string_view track) {
+  return track.ends_with(".drive_hz") || track.ends_with(".surface_velocity");
+}
+
 void start_played_tracks(StageState& state) {
   auto tracks = std::make_shared<PlayedTracks>();
   tracks->drives = tracks_of<double>(

@@ -4,7 +4,12 @@
 
 #include "stage/stage_data.h"
 
+#include <string_view>
+
 namespace tweenfall::staging {
+
+/// Whether a track of this name, "node.property", is such a one.
+[[nodiscard]] bool drives_a_body(std::string_view track);
 
 /// Finds the tracks, and lets each body start with the drive that they give it: that is no hand-off.
 /// @throws std::invalid_argument naming a track whose values are of another kind, or whose node has no body for it

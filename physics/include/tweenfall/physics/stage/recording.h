@@ -113,8 +113,8 @@ struct Recording {
 /// @param details  whether contacts, islands, boxes and sleep are recorded too; if they take more than `most_bytes`,
 /// or 256 MiB, all of them are left out
 /// @throws std::invalid_argument, saying how much it would be, for more than 20 million steps or `most_bytes`
-///         of frames,
-///         and as soon as there are a million events; NodeNotFinite, as the stage does
+///         of frames, and as soon as user tracks and particles take what is left of these or there are a million
+///         events; NodeNotFinite, as the stage does
 [[nodiscard]] Recording record(Stage& stage, double until, double fps, double most_bytes = 1024.0 * 1024 * 1024,
                                bool details = false);
 
