@@ -108,9 +108,24 @@ TEST_CASE("a track of one's own that is of another kind in another clip is told 
                "    \"hips.effort\": [[0, [1, 2, 3]]]}}}}\n");
   const Ran ran = folder.run("check kinds.json");
   CHECK(ran.code == 0);
+  CHECK(ran.err.starts_with(
+      "kinds.json:4:5: note: \"hips.effort\" is a vector of 3 here and a number in the clip \"walk\": "
+      "where clips are mixed, this one counts as without it"));
+  CHECK(ran.err.find("note", 20) == std::string::npos);
+}
+
+TEST_CASE("vectors of other sizes are other kinds") {
+  const Folder folder;
+  folder.write("sizes.json",
+               "{\"tweenfall\": 1, \"nodes\": {\"hips\": {}}, \"clips\": {\n"
+               "  \"walk\": {\"tracks\": {\"hips.wind\": [[0, [1, 2]]], \"hips.lean\": [[0, [1, 2, 3, 4]]]}},\n"
+               "  \"run\": {\"tracks\": {\"hips.lean\": [[0, [1, 2, 3, 4]]],\n"
+               "    \"hips.wind\": [[0, [1, 2, 3]]]}}}}\n");
+  const Ran ran = folder.run("check sizes.json");
+  CHECK(ran.code == 0);
   CHECK(
-      ran.err.starts_with("kinds.json:4:5: note: \"hips.effort\" is a vector here and a number in the clip \"walk\": "
-                          "where clips are mixed, this one counts as without it"));
+      ran.err.starts_with("sizes.json:4:5: note: \"hips.wind\" is a vector of 3 here and a vector of 2 in the clip "
+                          "\"walk\": "));
   CHECK(ran.err.find("note", 20) == std::string::npos);
 }
 

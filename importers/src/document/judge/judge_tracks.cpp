@@ -35,41 +35,48 @@ std::string meant_by(std::string_view track) {
   return dot == std::string_view::npos ? std::string() : said_of_property(track.substr(dot + 1), track.substr(0, dot));
 }
 
-// The kinds of user tracks, by the first clip that has each.
+const char* word_of(std::size_t kind) {
+  constexpr const char* words[] = {"number",   "vector of 2",     "vector of 3", "vector of 4", "color",
+                                   "rotation", "list of weights", "switch",      "text"};
+  static_assert(std::size(words) == std::variant_size_v<TrackCurve>);
+  return words[kind];
+}
+
+// The kinds of user tracks: curves' indices.
 class Kinds {
  public:
-  explicit Kinds(const Building& building) : building_(building) {
+  explicit Kinds(const Building& building) {
     for (const Clip& clip : building.stage.clips)
-      for (const Track& track : clip.tracks) first_.emplace(track.name(), First{clip.name, word_of(track.curve)});
+      for (const Track& track : clip.tracks)
+        if (property_named(track.property) == Property::user) {
+          const std::string name = track.name();
+          of_clip_[clip.name].emplace(name, track.curve.index());
+          first_.emplace(name, First{clip.name, track.curve.index()});
+        }
   }
 
   // Of a track that is of another kind in an earlier clip, what follows; else empty.
   [[nodiscard]] std::string said_of(std::string_view clip, std::string_view track) const {
-    const auto index = building_.clips.find(clip);
-    if (index == building_.clips.end() || property_named(track.substr(track.rfind('.') + 1)) != Property::user)
-      return {};
-    const std::vector<Track>& tracks = building_.stage.clips[index->second].tracks;
-    const auto own = std::ranges::find_if(tracks, [&](const Track& each) { return each.name() == track; });
+    const auto tracks = of_clip_.find(clip);
     const auto first = first_.find(track);
-    if (own == tracks.end() || first == first_.end() || first->second.kind == word_of(own->curve)) return {};
-    return json::in_quotes(track) + " is a " + word_of(own->curve) + " here and a " + first->second.kind +
+    if (tracks == of_clip_.end() || first == first_.end()) return {};
+    const auto own = tracks->second.find(track);
+    if (own == tracks->second.end() || own->second == first->second.kind) return {};
+    return json::in_quotes(track) + " is a " + word_of(own->second) + " here and a " + word_of(first->second.kind) +
            " in the clip " + json::in_quotes(first->second.clip) +
            ": where clips are mixed, this one counts as without it";
   }
 
  private:
   struct First {
-    std::string clip, kind;
+    std::string clip;
+    std::size_t kind;
   };
-  static const char* word_of(const TrackCurve& curve) {
-    constexpr const char* words[] = {"number",   "vector",          "vector", "vector", "color",
-                                     "rotation", "list of weights", "switch", "text"};
-    static_assert(std::size(words) == std::variant_size_v<TrackCurve>);
-    return words[curve.index()];
-  }
+  template <class T>
+  using ByName = std::map<std::string, T, std::less<>>;
 
-  const Building& building_;
-  std::map<std::string, First, std::less<>> first_;
+  ByName<ByName<std::size_t>> of_clip_;
+  ByName<First> first_;  // by the first clip that has each
 };
 
 }  // namespace
