@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 namespace tweenfall {
 
@@ -49,6 +51,36 @@ void check_node(const Recording& recording, std::size_t index) {
       throw RecordingFault(recording, index,
                            "a morph weight of node \"" + node.name + "\" is not finite at " +
                                number_text(recording.times[frame]) + " s");
+  }
+}
+
+struct IsFiniteValue {
+  bool operator()(double number) const { return std::isfinite(number); }
+  bool operator()(const Color& color) const { return color.rgba.allFinite(); }
+  bool operator()(const Quat& rotation) const { return rotation.coeffs().allFinite(); }
+  template <class Vector>
+  bool operator()(const Eigen::MatrixBase<Vector>& vector) const {
+    return vector.allFinite();
+  }
+  template <class T>
+  bool operator()(const Sample<T>& sample) const {
+    return (*this)(sample.value) && (*this)(sample.rate);
+  }
+  bool operator()(const std::vector<Sample<double>>& weights) const { return std::ranges::all_of(weights, *this); }
+  bool operator()(bool) const { return true; }
+  bool operator()(const std::string&) const { return true; }
+};
+
+void check_user_track(const Recording& recording, const UserTrackRecord& track) {
+  const std::string named = "user track \"" + track.name + "\"";
+  if (track.value.size() != recording.times.size())
+    fail(recording, named + " has " + std::to_string(track.value.size()) + " values for " +
+                        std::to_string(recording.times.size()) + " frames");
+  for (std::size_t frame = 0; frame < track.value.size(); ++frame) {
+    const char* fault = track.value[frame].index() != track.value[0].index() ? "is of another kind than before"
+                        : !std::visit(IsFiniteValue{}, track.value[frame])   ? "has no finite value or rate"
+                                                                             : nullptr;
+    if (fault) fail(recording, named + " " + fault + " at " + number_text(recording.times[frame]) + " s");
   }
 }
 
@@ -131,6 +163,7 @@ void check_recording(const Recording& recording) {
       recordings::fail(recording, "the hand-off of \"" + recording.nodes[handoff.node].name + "\" at " +
                                       number_text(handoff.time) + " s has no finite speed");
   }
+  for (const UserTrackRecord& track : recording.user_tracks) recordings::check_user_track(recording, track);
   for (const SoftRecord& soft : recording.softs) {
     if (soft.positions.size() != recording.times.size())
       recordings::fail(recording, "soft body \"" + soft.name + "\" has " + std::to_string(soft.positions.size()) +

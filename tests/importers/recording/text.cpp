@@ -4,7 +4,9 @@
 #include "page/example_stage.h"
 #include "support.h"
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <sstream>
 
 using namespace tweenfall;
@@ -180,4 +182,23 @@ TEST_CASE("a recording that went astray is refused with the node and the time") 
   recording.events[1].nodes[1] = 99;
   CHECK_THROWS_WITH_AS((void)recording_html(recording, example_stage()), doctest::Contains("names node 99"),
                        std::invalid_argument);
+}
+
+TEST_CASE("a recording whose user tracks are not one finite value of one kind for each frame is refused") {
+  const auto refused = [](UserValue value, std::size_t at, std::size_t frames, const char* why) {
+    Recording recording = example_recording(20);
+    const UserValue one = Sample<double>{1, 0, 0};
+    recording.user_tracks = {{.name = "hips.effort", .value = std::vector<UserValue>(frames, one)}};
+    recording.user_tracks[0].value[at] = std::move(value);
+    CHECK_THROWS_WITH_AS((void)recording_json(recording), doctest::Contains(why), std::invalid_argument);
+  };
+  const double infinite = std::numeric_limits<double>::infinity();
+  refused(Sample<double>{1, 0, 0}, 0, 60, "user track \"hips.effort\" has 60 values for 61 frames");
+  refused(true, 10, 61, "user track \"hips.effort\" is of another kind than before at 0.5 s");
+  refused(Sample<double>{std::nan(""), 0, 0}, 10, 61, "\"hips.effort\" has no finite value or rate at 0.5 s");
+  refused(Sample<double>{1, infinite, 0}, 10, 61, "\"hips.effort\" has no finite value or rate at 0.5 s");
+  const Sample<Vec2> wrong{{0, infinite}, {0, 0}, {0, 0}};
+  refused(wrong, 0, 61, "\"hips.effort\" has no finite value or rate at 0 s");
+  refused(std::vector<Sample<double>>{{1, 0, 0}, {0, infinite, 0}}, 0, 61, "no finite value or rate at 0 s");
+  refused(Sample<Color>{{{0, 0, infinite, 1}}, {0, 0, 0, 0}, {0, 0, 0, 0}}, 0, 61, "no finite value or rate at 0 s");
 }
