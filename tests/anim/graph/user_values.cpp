@@ -206,7 +206,7 @@ TEST_CASE("what an animation shows of colors and morph weights is what its graph
 
 TEST_CASE("plays mix user tracks by their weights, fades and masks, the ends bit for bit") {
   const auto shown = [](const Play& upper) { return Animation(limb(), clips_with_values(), {Play{.clip = 0}, upper}); };
-  const Animation fading = shown({.clip = 1, .at = 0.5, .fade_in = 1});
+  const Animation fading = shown(Play{.clip = 1, .at = 0.5, .fade_in = 1});
   // As long as it has not begun it has no say; half way in, its weight is 1/2.
   CHECK(number(fading.user_value("upper.effort", 0.25)).value == number(UserValue(ramp(0, 0.2).sample(0.25))).value);
   const Sample<double> weight = fading.players()[1].weight(1.0);
@@ -219,7 +219,7 @@ TEST_CASE("plays mix user tracks by their weights, fades and masks, the ends bit
   CHECK(number(fading.user_value("upper.effort", 1.75)).value == ramp(1, 0).value(1.25));
   CHECK(std::get<std::string>(fading.user_value("lower.mood", 0.75)) == "calm");
   CHECK(std::get<std::string>(fading.user_value("lower.mood", 1.25)) == "quick");
-  const Animation masked = shown({.clip = 1, .mask = {"upper"}});
+  const Animation masked = shown(Play{.clip = 1, .mask = {"upper"}});
   CHECK(number(masked.user_value("upper.effort", 0.5)).value == ramp(1, 0).value(0.5));
   CHECK(std::get<std::string>(masked.user_value("lower.mood", 0.5)) == "calm");
 }
