@@ -121,6 +121,19 @@ TEST_CASE("a file that cannot be written is named, with exit code 1") {
   CHECK(folder.names() == std::vector<std::string>{"thrown.json"});
 }
 
+TEST_CASE("--limit counts the texts of user tracks") {
+  const Folder folder;
+  folder.write("words.json",
+               "{\"tweenfall\": 1, \"nodes\": {\"b\": {}}, \"play\": [{\"clip\": \"c\"}],\n"
+               " \"clips\": {\"c\": {\"duration\": 2, \"tracks\": {\"b.word\": [[0, \"" +
+                   std::string(100'000, 'x') + "\"]]}}}}");
+  // 61 frames: 6.1 MB of text.
+  CHECK(folder.run("run words.json --until 1 --fps 60 --limit 7 --json").code == 0);
+  const Ran ran = folder.run("run words.json --until 1 --fps 60 --limit 6 --json");
+  CHECK(ran.code == 1);
+  CHECK(ran.err.find("s a recording of the user tracks takes more memory than is allowed") != std::string::npos);
+}
+
 TEST_CASE("frames that nobody counted are fewer where the usual ones would not fit, and that is said") {
   const Folder folder;
   folder.write("thrown.json", thrown_document);

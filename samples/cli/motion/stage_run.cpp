@@ -18,8 +18,9 @@ namespace {
 
 constexpr double megabyte = 1e6, most_steps = 2e7;
 
-/// The number of particles is only known as they come: a recording of them ends with an error at this size, bytes.
-constexpr double most_of_particles = 4e9 / 3;
+/// Particles and user tracks are counted as they come: without a limit, a recording ends with an error at this size,
+/// bytes.
+constexpr double most_without_limit = 4e9 / 3;
 
 /// Size of one node in one frame.
 constexpr double bytes_of_a_pose = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner) + sizeof(Color);
@@ -30,7 +31,8 @@ double bytes_per_frame(const StageDescription& stage) {
   double softs = 0;
   for (const SoftDescription& soft : stage.softs)
     softs += static_cast<double>(soft.soft.positions.size()) * sizeof(Vec3);
-  return static_cast<double>(stage.nodes.size()) * bytes_of_a_pose + weights + softs + sizeof(double);
+  const double joints = static_cast<double>(stage.joints.size()) * sizeof(std::optional<JointReading>);
+  return static_cast<double>(stage.nodes.size()) * bytes_of_a_pose + weights + softs + joints + sizeof(double);
 }
 
 /// @throws UsageError saying how large the recording would be.
@@ -97,9 +99,8 @@ Recording run_stage(const StageDescription& description, const RunOptions& optio
   const Progress progress("running " + options.file + " to " + brief_text(until) + " s");
   Stage stage = make_stage(description, options.file);
   try {
-    Recording recording =
-        record(stage, until, fps, std::max(most_of_particles, options.limit.value_or(0) * megabyte * 2),
-               options.details, options.inputs);
+    Recording recording = record(stage, until, fps, options.limit ? *options.limit * megabyte : most_without_limit,
+                                 options.details, options.inputs);
     check_recording(recording);
     say_unfired(recording, options.file);
     return recording;
