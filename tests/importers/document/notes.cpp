@@ -386,13 +386,3 @@ TEST_CASE("a formula without a value somewhere in its first second is noted, wit
   CHECK(noted("1/(t+1)").empty());
   CHECK(noted("sqrt(t)").empty());
 }
-
-TEST_CASE("the kinds of many tracks are compared without comparing all names") {
-  std::string tracks;
-  for (int i = 0; i < 24'000; ++i)
-    tracks += (i ? ", \"b.own" : "\"b.own") + std::to_string(i) + "\": [[0, " + std::to_string(i) + "]]";
-  const double start = test::processor_seconds();
-  CHECK(notes_of("{\"tweenfall\": 1, \"nodes\": {\"b\": {}}, \"clips\": {\"c\": {\"tracks\": {" + tracks + "}}}}")
-            .empty());
-  CHECK(test::processor_seconds() - start < 6);
-}
