@@ -203,7 +203,8 @@ TEST_CASE("root motion is taken out below mirrored joints: what it carries is wh
           return pose[2];
         },
         0.2, 1e-7);
-    root.put_back(pose, taken(0.2, pose));
+    const Motion again = taken(0.2, pose);
+    root.put_back(pose, again);
     CHECK(near(pose[2], moved_at_rest_scale(nodes, 7, 0.2)[2], 1e-10));
   }
 }
