@@ -114,16 +114,20 @@ void IslandJoints::find_figures(const std::vector<IslandBody>& island) {
     const std::uint32_t a = root_of(member.a), b = root_of(member.b);
     roots_[std::max(a, b)] = std::min(a, b);
   }
-  // Sorted by root, and otherwise in their order.
-  sorted_.clear();
-  for (std::size_t i = 0; i < members_.size(); ++i)
-    sorted_.push_back(std::uint64_t{root_of(members_[i].a_moves ? members_[i].a : members_[i].b)} << 32u | i);
-  std::sort(sorted_.begin(), sorted_.end());
-  given_.clear();
-  for (const std::uint64_t one : sorted_) given_.push_back(members_[one & 0xffffffffu]);
-  for (std::size_t begin = 0, end = 0; begin < given_.size(); begin = end) {
-    while (end < given_.size() && sorted_[end] >> 32u == sorted_[begin] >> 32u) ++end;
-    const std::span<const FigurePlan::Member> some = std::span(given_).subspan(begin, end - begin);
+  // Sorted by root, and otherwise in their order: runs of one root are, since most figures come in one.
+  runs_.clear();
+  for (std::uint32_t i = 0; i < members_.size(); ++i) {
+    const std::uint32_t root = root_of(members_[i].a_moves ? members_[i].a : members_[i].b);
+    if (runs_.empty() || runs_.back().root != root) runs_.push_back({root, i, i});
+    runs_.back().end = i + 1;
+  }
+  std::sort(runs_.begin(), runs_.end(),
+            [](const Run& a, const Run& b) { return std::pair(a.root, a.begin) < std::pair(b.root, b.begin); });
+  for (std::size_t first = 0, next = 0; first < runs_.size(); first = next) {
+    given_.clear();
+    for (; next < runs_.size() && runs_[next].root == runs_[first].root; ++next)
+      given_.insert(given_.end(), members_.begin() + runs_[next].begin, members_.begin() + runs_[next].end);
+    const std::span<const FigurePlan::Member> some = given_;
     if (KnownPlan& known = plan_for(some); known.found) {
       known.plan.change_members(some);
       add_figure(known.plan, known.shape, true);

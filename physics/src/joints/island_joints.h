@@ -117,6 +117,10 @@ class IslandJoints {
     work_.parts(group_count_, [&](std::size_t i) { see_if(i, true); });
     for (std::size_t i = 0; i < group_count_; ++i) see_if(backward ? group_count_ - 1 - i : i, false);
   }
+  /// Joints that follow each other and belong to one figure, which is told by its first body.
+  struct Run {
+    std::uint32_t root, begin, end;
+  };
   void find_figures(const std::vector<blocks::IslandBody>& island);
   void frame(FigureGroup& group, const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island);
   void add_figure(const FigurePlan& plan, const FigureGroup::Shape& shape, bool whole);
@@ -149,8 +153,8 @@ class IslandJoints {
   FigurePlan::Room room_;
   FigureGroup::Shape shape_;
   std::vector<FigurePlan::Member> members_, given_;
-  std::vector<std::uint64_t> sorted_;  ///< roots of members, with their indices
-  std::vector<std::uint32_t> kinds_;   ///< of joints_
+  std::vector<Run> runs_;
+  std::vector<std::uint32_t> kinds_;  ///< of joints_
   std::vector<std::uint32_t> roots_, local_;
   double h_ = 0, dt_ = 0, rate_ = 0;
   threads::Workers work_;

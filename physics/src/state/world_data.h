@@ -78,6 +78,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void find_obstacles();  ///< among the contacts
   /// Keeps bodies that a step deflected or made fast from ending behind a mesh or height field they were in front of.
   void hold_before_surfaces();
+  [[nodiscard]] bool may_pass_wall(const contacts::ContactConstraint& contact, double dt) const;
   void hold_before_walls(double dt);
   void gather_links();             ///< joints that hold something that can move
   void leave_sleeping_links();     ///< removes them from what is solved

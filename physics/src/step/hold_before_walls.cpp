@@ -19,6 +19,8 @@ namespace {
 constexpr double farther_on = 0.02;
 /// A led body that turns by more than this in the step is not checked, rad: seen from it, straight paths are bent.
 constexpr double turns_away = 0.3;
+/// Number of contacts that are worth a task of their own.
+constexpr std::size_t walls_worth_a_part = 256;
 
 /// About the distance from a solid's middle to its nearest surface point, m; 0 if only its core tells.
 double thickness(const Solid& solid) {
@@ -45,28 +47,50 @@ const Shape& part_of(const state::Body& body, std::uint32_t number) {
   return compound ? compound->parts()[number] : body.shape();
 }
 
+/// A contact of a movable body with one that is not.
+struct WallContact {
+  bool wall_is_a;
+  std::uint32_t index, part, wall, wall_part;
+
+  WallContact(const contacts::ContactConstraint& contact, const std::vector<state::Body>& bodies)
+      : wall_is_a(bodies[contact.a].immovable()),
+        index(wall_is_a ? contact.b : contact.a),
+        part(wall_is_a ? contact.part_b : contact.part_a),
+        wall(wall_is_a ? contact.a : contact.b),
+        wall_part(wall_is_a ? contact.part_a : contact.part_b) {}
+};
+
 }  // namespace
 }  // namespace step
 
+/// Most bodies have not moved far enough, which shows without their cores.
+bool World::Implementation::may_pass_wall(const contacts::ContactConstraint& contact, double dt) const {
+  const step::WallContact its(contact, bodies);
+  const state::Body &body = bodies[its.index], &wall = bodies[its.wall];
+  // Behind a plane there is no other side.
+  if (moved[its.index] == 0 || std::holds_alternative<Plane>(wall.shape().solid)) return false;
+  const Shape& part = step::part_of(body, its.part);
+  if (step::stands(wall, starts[its.wall]) &&
+      step::came_on(body, starts[its.index]) <= step::farther_on * step::thickness(part.solid))
+    return false;
+  return !(passages[its.wall].course.angular.norm() * dt > step::turns_away);
+}
+
 void World::Implementation::hold_before_walls(double dt) {
+  workers().ranges(active.size(), step::walls_worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (obstacles[i] == step::Obstacle::solid && !may_pass_wall(*active[i], dt)) obstacles[i] = step::Obstacle::none;
+  });
   for (std::size_t i = 0; i < active.size(); ++i) {
     if (obstacles[i] != step::Obstacle::solid) continue;
-    const contacts::ContactConstraint* contact = active[i];
-    const bool wall_is_a = bodies[contact->a].immovable();
-    const std::uint32_t index = wall_is_a ? contact->b : contact->a, wall_index = wall_is_a ? contact->a : contact->b;
+    const step::WallContact its(*active[i], bodies);
+    const std::uint32_t index = its.index;
     state::Body& body = bodies[index];
-    const state::Body& wall = bodies[wall_index];
-    // Behind a plane there is no other side.
-    if (moved[index] == 0 || std::holds_alternative<Plane>(wall.shape().solid)) continue;
-    const Shape& part = step::part_of(body, wall_is_a ? contact->part_b : contact->part_a);
-    // Most bodies have not moved far enough, which shows without their cores.
+    const state::Body& wall = bodies[its.wall];
+    const Shape& part = step::part_of(body, its.part);
     const step::Start& start = starts[index];
-    const step::Start& wall_start = starts[wall_index];
-    if (step::stands(wall, wall_start) && step::came_on(body, start) <= step::farther_on * step::thickness(part.solid))
-      continue;
-    const collision::Course& course = passages[wall_index].course;
-    if (course.angular.norm() * dt > step::turns_away) continue;
-    const Shape& wall_part = step::part_of(wall, wall_is_a ? contact->part_a : contact->part_b);
+    const step::Start& wall_start = starts[its.wall];
+    const Shape& wall_part = step::part_of(wall, its.wall_part);
     const std::optional<convex::Core> core = surfaces::convex_piece(part.solid, {Vec3::Zero(), Mat3::Identity()});
     if (!core) continue;
     const Vec3 middle = surfaces::middle_of(part.solid);

@@ -116,15 +116,12 @@ void World::Implementation::let_sleep(double dt) {
         if (flags[i] == 0 || !std::holds_alternative<Spring>(entry.force))
           flags[i] = std::holds_alternative<Spring>(entry.force) ? 1 : step::turned_too;
       });
-  // The shortest stillness in an island counts for all of it.
-  stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
-  drowsy.clear();
-  std::atomic<bool> all_finite = true;
+  std::atomic<bool> all_finite = true, some_drowsy = false;
   workers().ranges(watched.size(), step::worth_sharing_sleep, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = watched[k];
       state::Body& body = bodies[i];
-      if (!body.finite()) all_finite = false;
+      if (!body.finite()) all_finite.store(false, std::memory_order_relaxed);
       if (body.immovable()) continue;
       if (body.asleep) {
         body.still_for += dt;
@@ -140,9 +137,14 @@ void World::Implementation::let_sleep(double dt) {
         still = pull.linear < most && (flags[i] != step::turned_too || pull.turning * body.radius() < most);
       }
       body.still_for = still ? body.still_for + dt : 0;
+      if (body.still_for >= settings.sleep_after) some_drowsy.store(true, std::memory_order_relaxed);
     }
   });
   failed = !all_finite;
+  if (!some_drowsy) return;
+  // The shortest stillness in an island counts for all of it.
+  stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
+  drowsy.clear();
   for (const std::uint32_t i : watched) {
     const state::Body& body = bodies[i];
     if (body.immovable()) continue;

@@ -1,6 +1,7 @@
 #include <tweenfall/physics/executor.h>
 #include <tweenfall/physics/strategies.h>
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 
@@ -130,6 +131,20 @@ TEST_CASE("a pool does every part once, whoever asks and however often") {
   for (std::thread& asker : askers) asker.join();
   CHECK(wrong == 0);
   for (int i = 0; i < 50; ++i) ThreadPool unused(1 + static_cast<std::size_t>(i) % 9);
+}
+
+TEST_CASE("a pool does more parts than one job can have, and those of jobs of ever other sizes") {
+  ThreadPool pool(3);
+  std::vector<char> done((std::size_t{1} << 21) + 5, 0);
+  const auto count_up = [&](std::size_t i) { ++done[i]; };
+  pool.for_each(done.size(), Work(count_up));
+  CHECK(std::all_of(done.begin(), done.end(), [](char times) { return times == 1; }));
+  std::vector<int> sums(100, 0);
+  const auto add = [&](std::size_t i) { ++sums[i]; };
+  for (std::size_t size = 0; size <= sums.size(); ++size)
+    for (const std::size_t count : {size, sums.size() - size, std::size_t{2}}) pool.for_each(count, Work(add));
+  // Of 101 jobs of 0 to 100 parts, the i-th part is in those that have more than i.
+  for (std::size_t i = 0; i < sums.size(); ++i) REQUIRE(sums[i] == 2 * (100 - static_cast<int>(i)) + (i < 2 ? 101 : 0));
 }
 
 TEST_CASE("of the parts that throw the first is heard, and all others are done") {
