@@ -7,6 +7,7 @@
 #include "curve/curve_data.h"
 #include "curve/extrapolation.h"
 #include "curve/given_spans.h"
+#include "curve/time_bezier.h"
 #include "math/polynomial.h"
 #include "rotation/rotation_span.h"
 
@@ -20,7 +21,8 @@ Sample<T> with_rates(const T& value, const T& first, const T& second, double inv
 
 // From derivatives with respect to the polynomial's own variable to those with respect to the position u in the span.
 template <class V>
-void through(const Warp::Result& w, math::Polynomial<V>& p) noexcept {
+void through(const Warp& warp, const Warp::Result& w, const V* c, int degree, math::Polynomial<V>& p) noexcept {
+  if (w.ds * least_time_slope >= 0.999 * warp.width && limit_where_time_rests(warp, w.s, c, degree, p)) return;
   p.second = p.second * (w.ds * w.ds) + p.first * w.dds;
   p.first = p.first * w.ds;
 }
@@ -45,7 +47,7 @@ Sample<Quat> sample_rotation(const Data& d, std::size_t i, const Segment& s, con
     result = rotations::sample_nested(&d.pool[s.first], w);
   } else {
     math::Polynomial<Vec4> p = math::evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
-    if (s.warped) through(w, p);
+    if (s.warped) through(d.warps[i], w, &d.pool[s.first], s.degree, p);
     result =
         s.form == RotationSpan::Form::normalized
             ? rotations::sample_normalized(p, d.arrival(i))
@@ -65,9 +67,9 @@ Sample<T> sample_segment(const Data& d, std::size_t i, const Segment& s, double 
     return sample_rotation(d, i, s, w);
   } else {
     std::array<typename Stored<T>::type, 4> room;
-    math::Polynomial<typename Stored<T>::type> p =
-        math::evaluate_polynomial(d.coefficients(i, s.first, room), s.degree, w.s);
-    if (s.warped) through(w, p);
+    const auto* c = d.coefficients(i, s.first, room);
+    math::Polynomial<typename Stored<T>::type> p = math::evaluate_polynomial(c, s.degree, w.s);
+    if (s.warped) through(d.warps[i], w, c, s.degree, p);
     if constexpr (std::is_same_v<T, Color>) {
       const Sample<Vec4> v = with_rates(p.value, p.first, p.second, s.inverse);
       return {Color{v.value}, v.rate, v.acceleration};

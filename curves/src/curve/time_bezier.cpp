@@ -27,10 +27,9 @@ Warp::Result inverse_warp(double u, const std::array<double, 4>& parameters) noe
       if (settled) break;
     }
   }
-  constexpr double least_slope = 1e-6;
-  const double slope = std::max((3 * c * s + 2 * b) * s + a, least_slope);
+  const double slope = std::max((3 * c * s + 2 * b) * s + a, least_time_slope);
   const double second = 6 * c * s + 2 * b;
-  return {s, 1 / slope, slope > least_slope ? -second / (slope * slope * slope) : 0};
+  return {s, 1 / slope, slope > least_time_slope ? -second / (slope * slope * slope) : 0};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "curve/time_bezier.h"
 #include "eases/ease_form.h"
 #include "math/polynomial.h"
 
@@ -56,9 +57,12 @@ Sample<double> Ease::progress(double u, Side side) const noexcept {
   const double local = std::min(1.0, std::max(0.0, (u - p.start) / p.duration));
   Warp::Result w{local, 1, 0};
   if (p.warp.function) w = p.warp.at(local);
-  const math::Polynomial<double> v = math::evaluate_polynomial(p.coefficients.data(), p.degree, w.s);
-  Sample<double> result{v.value, v.first * w.ds / p.duration,
-                        (v.second * w.ds * w.ds + v.first * w.dds) / (p.duration * p.duration)};
+  math::Polynomial<double> v = math::evaluate_polynomial(p.coefficients.data(), p.degree, w.s);
+  if (!p.warp.function || !spans::limit_where_time_rests(p.warp, w.s, p.coefficients.data(), p.degree, v)) {
+    v.second = v.second * w.ds * w.ds + v.first * w.dds;
+    v.first = v.first * w.ds;
+  }
+  Sample<double> result{v.value, v.first / p.duration, v.second / (p.duration * p.duration)};
   if (local == 1) result.value = p.end;
   if (u >= 1 && side == Side::out) result.value = 1;
   return result;

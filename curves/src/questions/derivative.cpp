@@ -54,7 +54,12 @@ double through_handles(const LongPolynomial& y, const LongPolynomial& x, double 
     for (std::size_t i = 0; i < b.c.size(); ++i) b.c[i] = a.c[i] - (2 * k - 1) * b.c[i];
     n = b;
   }
-  const double slope = std::max(first.at(s), 1e-6);
+  const double slope = std::max(first.at(s), spans::least_time_slope);
+  // At rest together with time: as in `limit_where_time_rests`.
+  const double rest = 4 * spans::least_time_slope, bend = second.at(s);
+  if (order == 1 && slope == spans::least_time_slope && std::abs(bend) > rest &&
+      std::abs(n.at(s) * bend) <= rest * std::abs(n.derived().at(s)))
+    return n.derived().at(s) / bend;
   double divisor = slope;
   for (int k = 1; k < order; ++k) divisor *= slope * slope;
   return n.at(s) / divisor;
