@@ -12,6 +12,11 @@ void reach_freely(const JointChain& chain, const Arrow& target, ChainShape& shap
 /// A chain with limits: the target moves from the end of the chain to its place, and the joints follow.
 void reach_within_limits(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept;
 
+/// The same from the pose of the chain before, in `shape`, on the branch on which it is: the joints go back toward
+/// `home` by `share`, and from there follow the target.
+void follow_within_limits(const JointChain& chain, const Arrow& target, const ChainShape& home, const Dual& share,
+                          ChainShape& shape) noexcept;
+
 /// Turns all joints a little, more for a target farther from the end: a chain that lies straight on the line to its
 /// target could not start bending otherwise.
 void bend(const Arrow& target, ChainShape& shape) noexcept;

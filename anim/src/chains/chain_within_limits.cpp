@@ -130,9 +130,11 @@ class LimitedSolve {
  public:
   LimitedSolve(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept;
   void run() noexcept;
+  void go_on(const ChainShape& home, const Dual& share) noexcept;
 
  private:
   void move_off() noexcept;
+  void search() noexcept;
   void carry_on(const Dual& before, Turning (&last)[ChainShape::room]) noexcept;
   void track(bool patiently) noexcept;
   double step(const Arrow& target) noexcept;
@@ -290,7 +292,22 @@ void LimitedSolve::glance_from(int number) noexcept {
 void LimitedSolve::run() noexcept {
   move_off();
   track(true);
-  if (!chain_.leaps() || arrived()) return;
+  if (chain_.leaps() && !arrived()) search();
+}
+
+void LimitedSolve::go_on(const ChainShape& home, const Dual& share) noexcept {
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Turning& turn = shape_.turn(i);
+    const Arrow way = log_turn(home.turn(i) * inverse(turn));
+    shape_.turn(i, within_limits(shape_.joint(i), exp_turn(share * way) * turn));
+  }
+  shape_.place();
+  bend(target_, shape_);
+  track(true);
+  if (chain_.leaps() && !arrived()) search();
+}
+
+void LimitedSolve::search() noexcept {
   // What is missed by little may yet be reached from few places; what is missed by more surely is out of reach.
   constexpr int some = 100, many = 400;
   constexpr double little = 0.02, matters = 1e-6;  // of the chain's length
@@ -326,6 +343,11 @@ void LimitedSolve::run() noexcept {
 
 void reach_within_limits(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept {
   LimitedSolve(chain, target, shape).run();
+}
+
+void follow_within_limits(const JointChain& chain, const Arrow& target, const ChainShape& home, const Dual& share,
+                          ChainShape& shape) noexcept {
+  LimitedSolve(chain, target, shape).go_on(home, share);
 }
 
 }  // namespace tweenfall::chains

@@ -221,11 +221,13 @@ const Operation* Binder::bind_clip(std::size_t index) {
   return played;
 }
 
-// Counts how often each pose is used. Springs sample a pose at every point of their grid, and at the next.
+// Counts how often each pose is used. Springs, and chains that follow, sample a pose at every point of their grid, and
+// at the next.
 void Binder::count_askers() {
   for (const GraphPose& pose : description_.poses) {
-    const bool often =
-        std::holds_alternative<SpringPose>(pose.operation) || std::holds_alternative<JigglePose>(pose.operation);
+    const auto* reach = std::get_if<ReachPose>(&pose.operation);
+    const bool often = std::holds_alternative<SpringPose>(pose.operation) ||
+                       std::holds_alternative<JigglePose>(pose.operation) || (reach && reach->follows);
     for (const GraphOperand& operand : operands_of(pose.operation)) askers_[operand.pose] += often ? 2 : 1;
   }
 }

@@ -10,6 +10,7 @@
 #include "graph/recent_poses.h"
 #include "graph/record.h"
 #include "graph/trail.h"
+#include "limbs/reach_state.h"
 
 #include <array>
 #include <cstddef>
@@ -70,7 +71,7 @@ struct PhasePlace {
 using PhaseTrails = Trails<PhasePlace, 256>;
 
 /// How far springs have come on the clock that began at an instant; see `Swing`.
-using SwingState = std::variant<NodeSpringState, JiggleState>;
+using SwingState = std::variant<NodeSpringState, JiggleState, ReachState>;
 struct SwingMark {
   double instant = -1, time = -1;  // s; below 0: nothing is marked
   SwingState state{};

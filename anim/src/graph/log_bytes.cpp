@@ -108,8 +108,10 @@ void read_swings(SwingMemory& memory, double time, Reader& reader) {
     const std::uint64_t kind = reader.number();
     if (kind == 0)
       mark.state = NodeSpringState::from_bytes(reader.part());
-    else
+    else if (kind == 1)
       mark.state = JiggleState::from_bytes(reader.part());
+    else
+      mark.state = ReachState::from_bytes(reader.part());
   }
 }
 

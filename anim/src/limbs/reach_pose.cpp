@@ -1,7 +1,9 @@
 #include <tweenfall/anim/joint_chain.h>
 
+#include "chains/chain_follow.h"
 #include "limbs/place.h"
 #include "operations/account.h"
+#include "swinging/swing.h"
 
 namespace tweenfall::graphs {
 
@@ -23,6 +25,68 @@ class Reaching : public Changing {
   BoundPlace target_;
 };
 
+/// A chain with limits that goes on from where it was: on a grid of times, so that it is the same at any frame rate.
+class FollowingChain : public Swing<ReachState> {
+ public:
+  static constexpr double steps_per_second = 60;
+
+  FollowingChain(Changed changed, std::size_t number, JointChain chain, BoundPlace target)
+      : Swing(std::move(changed), number, 1 / steps_per_second), chain_(std::move(chain)), target_(std::move(target)) {}
+
+ protected:
+  void rest(ReachState& state) const noexcept override {
+    state.step = -1;
+    state.memory.turns.assign(chain_.joints().size(), Quat(1, 0, 0, 0));
+  }
+  void show(ReachState& state, double time, const ClockSight& sight, const PoseAt& pose_at,
+            const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) const noexcept override {
+    go_to(state, time, sight, pose_at, scratch.first(pose.size()));
+    const Sample<Vec3> target = target_.sample(sight.log, sight.at(time, sight.side), chain_.nodes(), pose);
+    chains::follow_from(chain_, target, time - time_of(state.step), weight, state.memory.turns, {}, pose);
+  }
+  void begin_again(ReachState& state, double time, const ClockSight& sight, const PoseAt& pose_at,
+                   std::span<Motion> scratch, std::span<const Motion> before,
+                   std::span<const Motion>) const noexcept override {
+    const std::span<Motion> room = scratch.first(before.size());
+    go_to(state, time, sight, pose_at, room);
+    std::ranges::copy(before, room.begin());
+    advance(state, time, time - time_of(state.step), sight, Side::in, room);
+    state.step = 0;
+  }
+
+ private:
+  static double time_of(std::int64_t step) noexcept { return static_cast<double>(step) / steps_per_second; }
+
+  void advance(ReachState& state, double time, double seconds, const ClockSight& sight, Side side,
+               std::span<Motion> pose) const noexcept {
+    const Sample<Vec3> target = target_.sample(sight.log, sight.at(time, side), chain_.nodes(), pose);
+    const std::span<Quat> turns = state.memory.turns;
+    chains::follow_from(chain_, target, seconds, {0, 0, 0}, state.step < 0 ? turns.first(0) : turns, turns, pose);
+  }
+  /// To the last point of the grid up to `time`. More than an hour after all that is remembered it begins anew.
+  void go_to(ReachState& state, double time, const ClockSight& sight, const PoseAt& pose_at,
+             std::span<Motion> room) const noexcept {
+    constexpr double oldest = 3600;  // s
+    const bool usable = state.memory.turns.size() == chain_.joints().size() && time_of(state.step) <= time;
+    if (!usable) rest(state);
+    if (const double skipped = time - oldest; time_of(state.step + 1) < skipped) {
+      rest(state);
+      const double from = std::floor(time * steps_per_second);
+      pose_at(from / steps_per_second, room);
+      advance(state, from / steps_per_second, 0, sight, Side::out, room);
+      state.step = static_cast<std::int64_t>(from);
+    }
+    for (; state.step < 0 || time_of(state.step + 1) <= time; ++state.step) {
+      const double next = time_of(state.step + 1);
+      pose_at(next, room);
+      advance(state, next, 1 / steps_per_second, sight, Side::out, room);
+    }
+  }
+
+  JointChain chain_;
+  BoundPlace target_;
+};
+
 }  // namespace
 
 void tell(const ReachPose& pose, Account& account) {
@@ -31,6 +95,7 @@ void tell(const ReachPose& pose, Account& account) {
   account.pose(pose.base, "base");
   for (const ReachPose::Joint& joint : pose.joints) account.tell(joint.node, joint.limit);
   account.tell(pose.target, pose.method, pose.sweeps, pose.leaps, pose.weight);
+  if (pose.follows) account.tell(pose.follows);
 }
 
 std::unique_ptr<Operation> bound(const ReachPose& described, Binder& binder) {
@@ -52,6 +117,12 @@ std::unique_ptr<Operation> bound(const ReachPose& described, Binder& binder) {
   binder.attempt({"reach"}, [&] { chain.emplace(binder.nodes(), settings); });
   if (!chain || !changed.whole || !target) return nullptr;
   for (const JointChain::Joint& joint : chain->joints()) binder.moves(joint.node);
+  if (described.follows && chain->limited()) {
+    auto operation = std::make_unique<FollowingChain>(std::move(changed), binder.new_swing(0), *std::move(chain),
+                                                      *std::move(target));
+    operation->set_rooms(FollowingChain::own_rooms);
+    return operation;
+  }
   return std::make_unique<Reaching>(std::move(changed), *std::move(chain), *std::move(target));
 }
 

@@ -19,11 +19,11 @@ class SwingingChain : public Swing<JiggleState> {
     state.offsets.assign(chain_.joints().size(), Vec3(0, 0, 0));
     state.rates.assign(chain_.joints().size(), Vec3(0, 0, 0));
   }
-  void show(JiggleState& state, double time, const PoseAt& pose_at, const Sample<double>& weight,
+  void show(JiggleState& state, double time, const ClockSight&, const PoseAt& pose_at, const Sample<double>& weight,
             std::span<Motion> scratch, std::span<Motion> pose) const noexcept override {
     jiggle(chain_, state, time, pose_at, weight, scratch, pose);
   }
-  void begin_again(JiggleState& state, double time, const PoseAt& pose_at, std::span<Motion> scratch,
+  void begin_again(JiggleState& state, double time, const ClockSight&, const PoseAt& pose_at, std::span<Motion> scratch,
                    std::span<const Motion> before, std::span<const Motion> after) const noexcept override {
     begin_anew(chain_, state, time, pose_at, scratch, before, after);
   }

@@ -17,12 +17,13 @@ class SpringyNode : public Swing<NodeSpringState> {
 
  protected:
   void rest(NodeSpringState& state) const noexcept override { state = {}; }
-  void show(NodeSpringState& state, double time, const PoseAt& pose_at, const Sample<double>& weight,
+  void show(NodeSpringState& state, double time, const ClockSight&, const PoseAt& pose_at, const Sample<double>& weight,
             std::span<Motion> scratch, std::span<Motion> pose) const noexcept override {
     follow(spring_, state, time, pose_at, weight, scratch, pose);
   }
-  void begin_again(NodeSpringState& state, double time, const PoseAt& pose_at, std::span<Motion> scratch,
-                   std::span<const Motion> before, std::span<const Motion> after) const noexcept override {
+  void begin_again(NodeSpringState& state, double time, const ClockSight&, const PoseAt& pose_at,
+                   std::span<Motion> scratch, std::span<const Motion> before,
+                   std::span<const Motion> after) const noexcept override {
     state = begun_anew(spring_, state, time, pose_at, scratch, before, after);
   }
 

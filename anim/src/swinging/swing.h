@@ -13,6 +13,15 @@
 
 namespace tweenfall::graphs {
 
+/// What the log shows on the clock of a state.
+struct ClockSight {
+  const Log& log;
+  double began, start;  // s: of the clock, and of the state around the operation
+  Side side = Side::out;
+
+  [[nodiscard]] Moment at(double time, Side on) const noexcept { return {began + time, on, start}; }
+};
+
 /// Springs use a clock that begins at the last instant, and see the base as it would continue from there if nothing
 /// more happened: so their movement until the next instant depends only on what happened before it. Where a clip makes
 /// the base jump is an instant too, before which the base is seen as going on straight.
@@ -28,10 +37,11 @@ class Swing : public Changing {
  protected:
   /// Resets a state to the base, at 0 s of a clock, with the size that all states have.
   virtual void rest(State& state) const noexcept = 0;
-  virtual void show(State& state, double time, const PoseAt& pose_at, const Sample<double>& weight,
-                    std::span<Motion> scratch, std::span<Motion> pose) const noexcept = 0;
-  virtual void begin_again(State& state, double time, const PoseAt& pose_at, std::span<Motion> scratch,
-                           std::span<const Motion> before, std::span<const Motion> after) const noexcept = 0;
+  virtual void show(State& state, double time, const ClockSight& sight, const PoseAt& pose_at,
+                    const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) const noexcept = 0;
+  virtual void begin_again(State& state, double time, const ClockSight& sight, const PoseAt& pose_at,
+                           std::span<Motion> scratch, std::span<const Motion> before,
+                           std::span<const Motion> after) const noexcept = 0;
 
   void change(const Log& log, const Moment& moment, const Sample<double>& weight, const Scratch& scratch,
               std::span<Motion> pose) const noexcept final {
@@ -54,7 +64,7 @@ class Swing : public Changing {
       const double next = std::min(jump, next_instant(log, from));
       if (moment.side == Side::out ? next > moment.time : next >= moment.time) {
         const Blinkers blinkers(log, from);
-        show(state, moment.time - from, pose_at, weight, work, pose);
+        show(state, moment.time - from, {log, from, moment.start, moment.side}, pose_at, weight, work, pose);
         here.time = moment.time;
         break;
       }
@@ -67,7 +77,7 @@ class Swing : public Changing {
         script.at(next, Side::out, after);
       }
       const Blinkers blinkers(log, from);
-      begin_again(state, next - from, pose_at, work, before, after);
+      begin_again(state, next - from, {log, from, moment.start}, pose_at, work, before, after);
       here.instant = here.time = next;
       keep(course, here);
     }

@@ -154,6 +154,7 @@ TEST_CASE("operations of a document mean what the same operations mean in C++") 
   CHECK(lean.method == ChainMethod::ccd);
   CHECK(lean.sweeps == 4);
   CHECK(lean.leaps);
+  CHECK(lean.follows);
   CHECK_FALSE(operation_of<ReachPose>(graph, "bend").leaps);
   CHECK(near(std::get<ConeLimit>(operation_of<ReachPose>(graph, "bend").joints.at(0).limit).swing, 40 * degree, 1e-15));
   CHECK(operation_of<MirrorPose>(graph, "flip").figure == "hips");

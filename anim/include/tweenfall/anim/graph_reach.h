@@ -57,7 +57,8 @@ struct ReachPose {
   GraphPlace target = {};
   ChainMethod method = ChainMethod::fabrik;
   int sweeps = 8;
-  bool leaps = false;  ///< jump to targets that a chain with limits does not reach otherwise
+  bool leaps = false;    ///< jump to targets that a chain with limits does not reach otherwise
+  bool follows = false;  ///< a chain with limits goes on from where it was, as `follow` does, 60 times a second
   GraphNumber weight = 1.0;
 };
 

@@ -236,7 +236,7 @@ class Told {
     static constexpr std::string_view harmless[] = {"ground", "weight", "floor", "lowest", "highest", "evenness",
                                                     "tilt",   "sweeps", "leaps", "method", "limits",  "swing",
                                                     "twist",  "share",  "limit", "ease",   "eye",     "softness",
-                                                    "fade",   "settle", "moves"};
+                                                    "fade",   "settle", "moves", "follows"};
     const auto holds_place = [&](const json::Value& part) {
       return place >= part.offset() && place < part.offset() + part.length();
     };
