@@ -76,6 +76,27 @@ bool jumps(const TrackPoint& in, const TrackPoint& out) {
   return false;
 }
 
+/// What arrives at a time on the plot's axis, or leaves it. A play's clock, as it rounds, may have passed it before or
+/// only pass it later.
+TrackPoint beside(const Shown& shown, const Track& track, double time, Side side) {
+  const double near = shown.play ? 1e-12 * std::max(1.0, std::abs(time)) : 0;
+  TrackPoint point = shown.at(track, side == Side::in ? time - near : time + near, side);
+  point.time = time;
+  return point;
+}
+
+/// Stage times at which a play begins, ends or changes its speed: its rates jump there.
+std::vector<double> pace_changes(const Shown& shown, double from, double until) {
+  std::vector<double> times;
+  if (!shown.play) return times;
+  const Play& play = *shown.play;
+  times = {play.at, end_time(play, *shown.clip)};
+  if (const std::optional<Curve<double>> speed = play.speed.curve())
+    for (const double own : speed->key_times()) times.push_back(play.at + own);
+  std::erase_if(times, [&](double time) { return !(time > from && time < until); });
+  return times;
+}
+
 /// Stage times at which a looping play restarts, where even a formula jumps.
 std::vector<double> seams(const Shown& shown, double from, double until) {
   std::vector<double> times;
@@ -190,6 +211,8 @@ void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<doub
   std::vector<double> corners = seams(shown, from, until);
   const std::vector<double> turns = turns_beyond(shown, *plotted.track, from, until);
   corners.insert(corners.end(), turns.begin(), turns.end());
+  const std::vector<double> paces = pace_changes(shown, from, until);
+  corners.insert(corners.end(), paces.begin(), paces.end());
   corners.insert(corners.end(), keys.begin(), keys.end());
   std::sort(corners.begin(), corners.end());
   std::vector<double> times = corners;
@@ -198,10 +221,11 @@ void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<doub
   times.erase(std::unique(times.begin(), times.end()), times.end());
   for (const double time : times) {
     const bool corner = std::binary_search(corners.begin(), corners.end(), time) && time > from;
-    if (corner) plotted.curve.push_back(shown.at(*plotted.track, time, Side::in));
+    if (corner) plotted.curve.push_back(beside(shown, *plotted.track, time, Side::in));
     // At the very end only the arriving value is shown.
     if (corner && time == until) continue;
-    plotted.curve.push_back(shown.at(*plotted.track, time, time == until ? Side::in : Side::out));
+    plotted.curve.push_back(corner ? beside(shown, *plotted.track, time, Side::out)
+                                   : shown.at(*plotted.track, time, time == until ? Side::in : Side::out));
     if (corner) plotted.curve.back().starts = jumps(plotted.curve[plotted.curve.size() - 2], plotted.curve.back());
   }
   if (plotted.curve.front().values.size() > 16) return;  // so many keys would hide the curves

@@ -6,11 +6,20 @@
 namespace tweenfall::recordings {
 
 std::vector<std::size_t> key_frames(const std::vector<double>& times, const std::vector<std::vector<Vec2>>& points,
-                                    double tolerance) {
+                                    double tolerance, std::span<const std::size_t> starts) {
   std::vector<std::size_t> kept;
   if (times.empty()) return kept;
-  kept = {0, times.size() - 1};
-  std::vector<std::pair<std::size_t, std::size_t>> stretches{{0, times.size() - 1}};
+  std::vector<std::pair<std::size_t, std::size_t>> stretches;
+  const auto add = [&](std::size_t first, std::size_t last) {
+    kept.insert(kept.end(), {first, last});
+    stretches.emplace_back(first, last);
+  };
+  std::size_t from = 0;
+  for (const std::size_t start : starts) {
+    add(from, start - 1);
+    from = start;
+  }
+  add(from, times.size() - 1);
   while (!stretches.empty()) {
     const auto [first, last] = stretches.back();
     stretches.pop_back();

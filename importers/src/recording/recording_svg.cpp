@@ -6,6 +6,7 @@
 #include "figures/figures.h"
 #include "plot/svg_writer.h"
 #include "recording/dots_svg.h"
+#include "recording/figure_jumps.h"
 #include "recording/keyframes.h"
 #include "recording/words.h"
 
@@ -87,11 +88,19 @@ struct Series {
   std::string values, times;
 };
 
-/// Values of kept frames and their times as shares of the duration; the last value stays to the end.
+/// Values of kept frames and their times as shares of the duration; the last value stays to the end, and what jumps
+/// stays until then.
 template <class ToText>
-Series series(const Drawing& drawing, const std::vector<std::size_t>& kept, ToText to_text) {
+Series series(const Drawing& drawing, const std::vector<std::size_t>& kept, ToText to_text,
+              const std::vector<FigureJump>& jumps = {}) {
   Series result;
+  auto jump = jumps.begin();
   for (const std::size_t frame : kept) {
+    for (; jump != jumps.end() && jump->frame == frame; ++jump) {
+      const std::string then = short_text(drawing.share(jump->time), 5) + ";";
+      result.values += to_text(frame - 1) + ";" + to_text(frame) + ";";
+      result.times += then + then;
+    }
     result.values += to_text(frame) + ";";
     result.times += short_text(drawing.share(drawing.recording.times[frame]), 5) + ";";
   }
@@ -163,16 +172,20 @@ void draw_trail(Drawing& drawing, const Figure& figure) {
     }
     middles.push_back({middle});
   }
-  std::vector<std::size_t> kept = key_frames(drawing.recording.times, middles, drawing.tolerance);
+  const std::vector<std::size_t> starts = frames_of(jumps_of(figure, drawing.recording));
+  const std::vector<std::size_t> kept = key_frames(drawing.recording.times, middles, drawing.tolerance, starts);
   if (kept.size() == 2 && (middles[kept[0]][0] - middles[kept[1]][0]).norm() < 1) return;
   const std::vector<std::size_t> changes = changes_of_owner(node);
   for (std::size_t run = 0; run < changes.size(); ++run) {
     const std::size_t first = changes[run];
     const std::size_t last = run + 1 < changes.size() ? changes[run + 1] : drawing.recording.times.size() - 1;
     std::string path = "M" + drawing.place(middles[first][0]);
+    const auto go_to = [&](std::size_t frame) {
+      path += (std::ranges::binary_search(starts, frame) ? "M" : "L") + drawing.place(middles[frame][0]);
+    };
     for (const std::size_t frame : kept)
-      if (frame > first && frame < last) path += "L" + drawing.place(middles[frame][0]);
-    path += "L" + drawing.place(middles[last][0]);
+      if (frame > first && frame < last) go_to(frame);
+    if (last > first) go_to(last);
     drawing.svg.leaf("path", {{"fill", "none"},
                               {"stroke", owner_color(node.owner[first])},
                               {"stroke-width", "1.5"},
@@ -203,7 +216,9 @@ void draw_figure(Drawing& drawing, const Figure& figure) {
     return;
   }
   const NodeRecord& node = drawing.recording.nodes[figure.node];
-  const std::vector<std::size_t> kept = key_frames(drawing.recording.times, figure.points, drawing.tolerance);
+  const std::vector<FigureJump> jumps = jumps_of(figure, drawing.recording);
+  const std::vector<std::size_t> kept =
+      key_frames(drawing.recording.times, figure.points, drawing.tolerance, frames_of(jumps));
   const bool still = kept.size() == 2 && figure.points[kept[0]] == figure.points[kept[1]];
   const bool stick = figure.kind == Figure::Kind::stick;
   const std::string color = figure.fixed ? "#8f959d" : owner_color(node.owner.front());
@@ -228,12 +243,12 @@ void draw_figure(Drawing& drawing, const Figure& figure) {
     const auto x = [&](std::size_t frame) { return drawing.number(figure.points[frame][0].x()); };
     const auto y = [&](std::size_t frame) { return drawing.number(figure.points[frame][0].y()); };
     drawing.svg.open("circle", {{"r", plotting::px(figure.radius)}, {"cx", x(0)}, {"cy", y(0)}});
-    if (!still) animate(drawing, "cx", series(drawing, kept, x));
-    if (!still) animate(drawing, "cy", series(drawing, kept, y));
+    if (!still) animate(drawing, "cx", series(drawing, kept, x, jumps));
+    if (!still) animate(drawing, "cy", series(drawing, kept, y, jumps));
     drawing.svg.close();
   }
   drawing.svg.open("path", {{"d", path(0)}});
-  if (!still) animate(drawing, "d", series(drawing, kept, path));
+  if (!still) animate(drawing, "d", series(drawing, kept, path, jumps));
   drawing.svg.close();
   drawing.svg.close();
 }

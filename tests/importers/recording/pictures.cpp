@@ -122,6 +122,42 @@ TEST_CASE("an orbit is drawn round, upright and level") {
   }
 }
 
+TEST_CASE("a moving picture joins nothing across a jump: what jumps stays until then, and its trail is broken") {
+  const Document document = Document::parse(R"({"tweenfall": 1,
+      "nodes": {"ball": {"body": {"shape": {"sphere": {"radius": 0.1}}}},
+                "cart": {}, "post": {"parent": "cart", "body": {"shape": {"box": {"size": [0.2, 1, 0.2]}}}}},
+      "clips": {"c": {"tracks": {
+        "ball.position": [[0, [0, 2, 0], "linear"], [0.5, [1, 2, 0], "hold"], [1.01, [3, 3, 0], "linear"], [2, [4, 3, 0]]],
+        "cart.position": [[0, [0, 0, 0], "hold"], [1.01, [2, 0, 0], "linear"], [2, [3, 0, 0]]]}}},
+      "play": [{"clip": "c"}]})",
+                                            "jumps.json", {});
+  Stage run(document.stage());
+  const std::string svg = recording_svg(record(run, 2, 30), document.stage());
+  for (const char* trail : {"stroke-width=\"1.5\""}) {
+    std::size_t at = 0;
+    for (int i = 0; i < 2; ++i) {
+      at = svg.find(trail, at) + 1;
+      REQUIRE(at != std::string::npos + 1);
+      const std::string path = attribute(svg, at, "d");
+      CHECK(std::count(path.begin(), path.end(), 'M') == 2);
+    }
+  }
+  const std::size_t circle = svg.find("<circle"), x_of = svg.find("attributeName=\"cx\"", circle);
+  REQUIRE(x_of != std::string::npos);
+  const std::vector<double> shares = list(attribute(svg, x_of, "keyTimes")), x = list(attribute(svg, x_of, "values"));
+  const double length = std::stod(attribute(svg, x_of, "dur"));
+  REQUIRE(shares.size() == x.size());
+  int jumps = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    CHECK(shares[i] >= shares[i - 1]);
+    if (shares[i] > shares[i - 1]) continue;
+    ++jumps;
+    CHECK(shares[i] * length == doctest::Approx(1.01).epsilon(1e-4));
+    CHECK(x[i] - x[i - 1] == doctest::Approx(2 * (x[i - 1] - x.front())).epsilon(0.02));
+  }
+  CHECK(jumps == 1);
+}
+
 TEST_CASE("a moving picture in which nothing can be seen says so, and one with a ground alone does not") {
   StageDescription stage;
   stage.nodes.push_back({.name = "nowhere"});

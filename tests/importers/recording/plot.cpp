@@ -88,6 +88,40 @@ TEST_CASE("what hardly changes has its levels counted from the lowest, where all
   CHECK(count(wide, ">2.4<") == 1);
 }
 
+TEST_CASE("rates are not joined where a play begins, turns, changes its speed or ends") {
+  const Document document = Document::parse(R"({"tweenfall": 1, "nodes": {"there": {}, "once": {}, "slower": {}},
+      "clips": {"p": {"loop": "pingpong", "tracks": {"there.position.x": [[0, 0, "linear"], [0.7, 2]]}},
+                "o": {"tracks": {"once.position.x": [[0, 0, "linear"], [1, 2], [1.4, 2]]}},
+                "s": {"tracks": {"slower.position.x": [[0, 0, "linear"], [3, 2]]}}},
+      "play": [{"clip": "p"}, {"clip": "o", "at": 0.513, "to": 0.8},
+               {"clip": "s", "at": 0.213, "speed": [[0, 1, "hold"], [1, 0.25, "hold"], [2, 0.25]]}]})",
+                                            "rates.json", {});
+  Stage stage(document.stage());
+  const Recording recording = record(stage, 3, 60);
+  const std::pair<const char*, int> pieces[] = {{"there", 5}, {"once", 3}, {"slower", 3}};
+  for (const auto& [node, count_of_pieces] : pieces) {
+    CAPTURE(node);
+    const std::string svg =
+        plot_svg(document.stage(), &recording, {.tracks = {std::string(node) + ".position.x"}, .clip = ""});
+    const std::size_t values = svg.find("class=\"curve\""), rates = svg.find("class=\"curve\"", values + 1);
+    REQUIRE(rates != std::string::npos);
+    const std::size_t from = svg.find(" d=\"", rates) + 4;
+    const std::string path = svg.substr(from, svg.find('"', from) - from);
+    CHECK(std::count(path.begin(), path.end(), 'M') == count_of_pieces);
+    // Constant rates: every piece is level.
+    std::istringstream places(path);
+    for (std::string piece; std::getline(places, piece, 'M');) {
+      std::istringstream of_piece(piece);
+      std::string first;
+      for (std::string place; std::getline(of_piece, place, 'L');) {
+        const std::string height = place.substr(place.find(' ') + 1);
+        if (first.empty()) first = height;
+        CHECK(height == first);
+      }
+    }
+  }
+}
+
 TEST_CASE("a recorded plot has the hand-off line and the simulated continuation") {
   const StageDescription stage = example_stage();
   const Recording recording = example_recording();
