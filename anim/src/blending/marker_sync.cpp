@@ -170,6 +170,17 @@ MarkerSync::Place MarkerSync::place(const Track& track, double phase) noexcept {
   return result;
 }
 
+double MarkerSync::slope(const Track& track, double phase) noexcept {
+  const double around = static_cast<double>(track.stretches.size());
+  const double counted = phase - track.first, cycle = std::floor(counted / around);
+  const double within = std::clamp(counted - cycle * around, 0.0, around);
+  const std::size_t index = std::min(static_cast<std::size_t>(within), track.stretches.size() - 1);
+  const Stretch& s = track.stretches[index];
+  if (s.slope == s.length && s.slope_end == s.length) return s.length;
+  const double f = within - static_cast<double>(index), g = 1 - f;
+  return 6 * f * g * s.length + s.slope * g * (1 - 3 * f) + s.slope_end * f * (3 * f - 2);
+}
+
 double MarkerSync::phase_at(std::size_t clip, double time) const noexcept {
   const Track& track = clips_[clip];
   const std::vector<Stretch>& stretches = track.stretches;
@@ -209,6 +220,17 @@ Sample<double> MarkerSync::running(double phase, std::span<const Sample<double>>
   }
   const double rate = 1 / seconds;
   return {phase, rate, -(by_weights + by_phase * rate) * rate * rate};
+}
+
+double MarkerSync::rate(double phase, std::span<const double> weights) const noexcept {
+  double sum = 0, seconds = 0;
+  for (const double weight : weights) sum += weight >= 0 ? weight : 0;
+  const bool even = blending::Whole{{sum, 0, 0}}.is_nothing();
+  for (std::size_t i = 0; i < clips_.size(); ++i) {
+    const double weight = weights[i] >= 0 ? weights[i] : 0;
+    seconds += (even ? 1 / static_cast<double>(clips_.size()) : weight / sum) * slope(clips_[i], phase);
+  }
+  return 1 / seconds;
 }
 
 double MarkerSync::share(std::span<const double> weights, double sum, std::size_t clip) const noexcept {

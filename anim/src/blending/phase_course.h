@@ -55,13 +55,17 @@ class PhaseCourse {
   [[nodiscard]] CoursePlace until(CoursePlace at, double phase) const noexcept {
     while (at.phase != phase && at.time != end_) {
       const double marker = way_ * (std::floor(way_ * at.phase) + 1);
-      const double to = calm_end(at, way_ * std::min(way_ * phase, way_ * marker));
+      const Calm calm = calm_after(at, way_ * std::min(way_ * phase, way_ * marker));
+      const double to = calm.end;
       if (to == at.phase) return {at.phase, end_};  // too short a time for the phase to move
-      const double time =
-          at.time + integrated([&](double p, double t) { return pace_(t, p); }, at.phase, at.time, to - at.phase);
-      if (way_ * time < way_ * end_) {
-        at = {to, time};
-        continue;
+      // Where even the least pace takes too long, the time ends first.
+      if (!(way_ * (to - at.phase) * calm.least > little * (way_ * (end_ - at.time)))) {
+        const double time =
+            at.time + integrated([&](double p, double t) { return pace_(t, p); }, at.phase, at.time, to - at.phase);
+        if (way_ * time < way_ * end_) {
+          at = {to, time};
+          continue;
+        }
       }
       const double left = end_ - at.time;
       const double gone = integrated([&](double t, double p) { return 1 / pace_(t, p); }, at.time, at.phase, left);
@@ -71,9 +75,13 @@ class PhaseCourse {
   }
 
  private:
+  static constexpr double little = 1.25;
+  struct Calm {
+    double end;    // phase
+    double least;  // pace seen up to there
+  };
   /// Halves the way until the pace changes little over it, so that the integration is good to rounding.
-  [[nodiscard]] double calm_end(const CoursePlace& at, double to) const noexcept {
-    constexpr double little = 1.25;
+  [[nodiscard]] Calm calm_after(const CoursePlace& at, double to) const noexcept {
     const double first = pace_(at.time, at.phase);
     // Much further than the time lasts at this pace need not be looked at.
     const double enough = at.phase + 2 * (end_ - at.time) / first;
@@ -85,10 +93,10 @@ class PhaseCourse {
       const double time = way_ * std::min(way_ * (at.time + passed), way_ * end_);
       const auto [least, most] =
           std::minmax({first, last, pace_(at.time, middle), pace_(time, middle), pace_(time, to)});
-      if (most <= little * least) break;
+      if (most <= little * least) return {to, least};
       to = middle;
     }
-    return to;
+    return {to, first};
   }
 
   const Pace& pace_;

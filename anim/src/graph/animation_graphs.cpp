@@ -29,7 +29,8 @@ GraphGround ground_of(const Animation& plays, const std::shared_ptr<GroundJumps>
   const auto user_value = [plays](std::string_view track, double time, Side side) {
     return plays.user_value(track, time, side);
   };
-  const auto next_jump = [plays, changes, jumps, own = std::make_shared<GroundJumps>()](double after, double until) {
+  const auto next_jump = [plays, changes, jumps, own = std::make_shared<GroundJumps>()](double, double after,
+                                                                                        double until) {
     std::call_once(own->once, [&] {
       std::call_once(jumps->once, [&] { jumps->search = JumpSearch(plays, moves_its_node); });
       own->search = jumps->search.with_plays_of(plays, moves_its_node);

@@ -244,17 +244,18 @@ bool is_same_place(const Motion& a, const Motion& b) noexcept {
 }  // namespace graphs
 
 std::optional<double> GraphPlayer::first_instant(double from, double to) {
-  return instant(from, to, true);
+  return instant(from, from, to, true);
 }
 
-std::optional<double> GraphPlayer::first_possible_jump(double from, double to) {
-  std::optional<double> first = instant(from, to, false);
+std::optional<double> GraphPlayer::first_possible_jump(double from, double to, std::optional<double> since) {
+  const double began = since.value_or(from);
+  std::optional<double> first = instant(began, from, to, false);
   if (run_->ground.next_jump)
-    if (const auto below = run_->ground.next_jump(from, first.value_or(to))) first = below;
+    if (const auto below = run_->ground.next_jump(began, from, first.value_or(to))) first = below;
   return first;
 }
 
-std::optional<double> GraphPlayer::instant(double from, double to, bool looks) {
+std::optional<double> GraphPlayer::instant(double since, double from, double to, bool looks) {
   if (!(from < to) || !std::isfinite(to)) return std::nullopt;
   know(to);
   std::optional<double> first;
@@ -276,16 +277,16 @@ std::optional<double> GraphPlayer::instant(double from, double to, bool looks) {
     evaluate(time, behind, Side::out);
     return std::ranges::equal(before, behind, graphs::is_same_place);
   };
-  double after = from;
+  graphs::Search left{since, from, to};
   for (int looked_at = 0;; ++looked_at) {
-    const auto jump = graph_->compiled().output->next_jump(run_->log, 0, after, first.value_or(to));
+    const auto jump = graph_->compiled().output->next_jump(run_->log, 0, left.up_to(first.value_or(to)));
     if (!jump) break;
     if (may_go_on && looked_at == most_looked_at && *jump - from < most_looked_at * dense) break;
     if (!may_go_on || looked_at == most_looked_at || !goes_on(*jump)) {
       first = jump;
       break;
     }
-    after = *jump;
+    left = left.from(*jump);
   }
   for (const Curve<double>& curve : graph_->compiled().jumping)
     if (const double jump = first_jump(curve, from, first.value_or(to)); std::isfinite(jump)) first = jump;

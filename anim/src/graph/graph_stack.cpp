@@ -37,7 +37,9 @@ struct GraphStack::Runner {
     const auto user_value = [&player](std::string_view track, double time, Side side) {
       return player.user_value_at(track, time, side);
     };
-    const auto next_jump = [&player](double after, double until) { return player.first_possible_jump(after, until); };
+    const auto next_jump = [&player](double since, double after, double until) {
+      return player.first_possible_jump(after, until, since);
+    };
     return {pose, next_event, look, user_value, next_jump};
   }
 
@@ -189,8 +191,8 @@ GraphPlayer GraphStack::player(const std::shared_ptr<const GraphStack>& stack, s
     ground.user_value = [stack, graph](std::string_view track, double at, Side side) {
       return Lent(*stack)->players[graph - 1].user_value_at(track, at, side);
     };
-    ground.next_jump = [stack, graph](double after, double until) {
-      return Lent(*stack)->players[graph - 1].first_possible_jump(after, until);
+    ground.next_jump = [stack, graph](double since, double after, double until) {
+      return Lent(*stack)->players[graph - 1].first_possible_jump(after, until, since);
     };
     ground.next_event = [stack, graph](std::string_view name, double after, double until) {
       const Lent lent(*stack);

@@ -40,6 +40,12 @@ void add(Record<Setting>& settings, double half_life, Setting setting) {
   settings.push_back(setting);
 }
 
+void forget_from(JumpMark& mark, double time) noexcept {
+  if (mark.instant >= time) mark = {};
+  if (mark.searched >= time) mark.searched = std::nextafter(time, -1.0);
+  if (mark.jump >= time) mark.jump = std::numeric_limits<double>::infinity();
+}
+
 /// Index of the first entry for which `is_late` holds; it must not hold for entries before `time`.
 template <class T, class Late>
 std::size_t first_late(const Record<T>& list, double time, const Late& is_late) {
@@ -76,12 +82,14 @@ void forget(Log& log, const GraphDescription& description, double time, const La
 void forget_marks(const Log& log, double time) noexcept {
   for (PhaseTrails& trails : log.phases) trails.forget_after(time);
   for (TravelTrails& trails : log.travels) trails.forget_after(time);
+  for (KnownPhases& known : log.known_phases) known.forget_from(time);
   for (RecentPoses& recent : log.recent) recent.forget_from(time);
   for (SwingMemory& memory : log.swings)
     for (SwingCourse& course : memory.courses) {
       for (SwingMark& mark : course.latest)
         if (mark.instant >= time) mark.time = mark.instant = -1;
       while (course.marked > 0 && course.markers[course.marked - 1].instant >= time) --course.marked;
+      for (JumpMark& mark : course.jumps) forget_from(mark, time);
       if (course.start >= time) course.start = -1;
     }
 }
@@ -89,6 +97,7 @@ void forget_marks(const Log& log, double time) noexcept {
 Log fresh_log(const GraphDescription& description, const LogSizes& sizes) {
   Log log;
   log.phases.resize(sizes.phases);
+  log.known_phases.resize(sizes.phases);
   log.swings.resize(sizes.swings);
   log.travels.resize(sizes.travels);
   log.recent.resize(sizes.recent);
@@ -212,6 +221,12 @@ double next_instant(const Log& log, double after) noexcept {
   for (const Record<Setting>& settings : log.settings) next = std::min(next, next_in(settings, after));
   for (const Record<Passage>& passages : log.passages) next = std::min(next, next_in(passages, after));
   return next;
+}
+
+double last_sure(const Log& log) noexcept {
+  if (!std::isfinite(log.until)) return log.until;
+  const double hidden = next_instant(log, log.until);
+  return std::isfinite(hidden) ? std::nextafter(hidden, -1.0) : hidden;
 }
 
 }  // namespace tweenfall::graphs

@@ -12,6 +12,7 @@
 #include "graph/trail.h"
 #include "limbs/reach_state.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -70,11 +71,52 @@ struct PhasePlace {
 };
 using PhaseTrails = Trails<PhasePlace, 256>;
 
+/// The last phases asked for: the clips of a space share them.
+class KnownPhases {
+ public:
+  struct Question {
+    double time = -1;  // below 0: none
+    double start = 0;
+    double seen = 0;  // what happens later is hidden
+    Side side = Side::out;
+
+    bool operator==(const Question&) const = default;
+  };
+  [[nodiscard]] const Sample<double>* recall(const Question& question) const noexcept {
+    const auto found = std::ranges::find(known_, question, &Known::question);
+    return found == known_.end() ? nullptr : &found->phase;
+  }
+  const Sample<double>& remember(const Question& question, const Sample<double>& phase) noexcept {
+    Known& known = known_[next_];
+    next_ = (next_ + 1) % known_.size();
+    known = {question, phase};
+    return known.phase;
+  }
+  void forget_from(double time) noexcept {
+    for (Known& known : known_)
+      if (known.question.time >= time) known.question.time = -1;
+  }
+
+ private:
+  struct Known {
+    Question question;
+    Sample<double> phase{};
+  };
+  std::array<Known, 8> known_{};
+  std::size_t next_ = 0;
+};
+
 /// How far springs have come on the clock that began at an instant; see `Swing`.
 using SwingState = std::variant<NodeSpringState, JiggleState, ReachState>;
 struct SwingMark {
   double instant = -1, time = -1;  // s; below 0: nothing is marked
   SwingState state{};
+};
+/// How far the base of springs was searched for its first jump after an instant.
+struct JumpMark {
+  double instant = -1;                                    // s; below 0: none
+  double searched = 0;                                    // s
+  double jump = std::numeric_limits<double>::infinity();  // up to there; infinity for none
 };
 /// The springs of one operation since the state around it was entered.
 struct SwingCourse {
@@ -85,6 +127,8 @@ struct SwingCourse {
   std::array<SwingMark, 16> markers{};  // each `gap` seconds or more after the one before, the first `marked` of them
   std::size_t marked = 0;
   double gap = 0.5;
+  std::array<JumpMark, 8> jumps{};
+  std::size_t next_jump = 0;  // index of the one replaced next
 };
 struct SwingMemory {
   std::array<SwingCourse, 4> courses{};
@@ -116,6 +160,7 @@ struct Log {
   Record<double> instants;  // s; times at which something may have happened without an input, in order
   /// By phase of the graph: points to continue from, so that not everything is computed again. A cache only.
   mutable std::vector<PhaseTrails> phases;
+  mutable std::vector<KnownPhases> known_phases;  // by phase of the graph. A cache only.
   /// By operation with springs: points to continue from. A cache only.
   mutable std::vector<SwingMemory> swings;
   /// By operation that accumulates root motion: points to continue from. A cache only.
@@ -129,10 +174,12 @@ struct Log {
   double known = -1;           // everything up to and including this time is computed; below 0: nothing is
 };
 
-/// Hides everything after an instant while looking ahead.
+/// Hides everything after an instant while looking ahead; what is hidden already stays so.
 class Blinkers {
  public:
-  Blinkers(const Log& log, double until) noexcept : log_(log), before_(log.until) { log.until = until; }
+  Blinkers(const Log& log, double until) noexcept : log_(log), before_(log.until) {
+    log.until = std::min(before_, until);
+  }
   ~Blinkers() { log_.until = before_; }
   Blinkers(const Blinkers&) = delete;
   Blinkers& operator=(const Blinkers&) = delete;
@@ -154,8 +201,10 @@ struct Sight {
 /// The latest instant after `start` and before `time` (or at it, for `Side::out`) at which there was an input or a
 /// machine passed to another state; `start` where there is none.
 [[nodiscard]] double last_instant(const Log& log, double start, double time, Side side) noexcept;
-/// The first such instant after a time; infinity where there is none.
+/// The first such instant after a time, hidden or not; infinity where there is none.
 [[nodiscard]] double next_instant(const Log& log, double after) noexcept;
+/// The last time before the first one that is hidden: up to there, everything is as it will be.
+[[nodiscard]] double last_sure(const Log& log) noexcept;
 
 /// A log with only the inputs of the description.
 [[nodiscard]] Log fresh_log(const GraphDescription& description, const LogSizes& sizes);

@@ -25,12 +25,26 @@ SwingCourse& course_since(SwingMemory& memory, double start) noexcept {
     found->start = start;
     found->marked = 0;
     found->gap = SwingCourse{}.gap;
+    found->jumps = {};
   }
   found->asked = memory.asked;
   return *found;
 }
 
+JumpMark& jump_mark(SwingCourse& course, double instant) noexcept {
+  const auto found = std::ranges::find(course.jumps, instant, &JumpMark::instant);
+  if (found != course.jumps.end()) return *found;
+  JumpMark& mark = course.jumps[course.next_jump];
+  course.next_jump = (course.next_jump + 1) % course.jumps.size();
+  mark = {.instant = instant, .searched = instant};
+  return mark;
+}
+
 SwingMark& next_mark(SwingCourse& course) noexcept {
+  // A look ahead leaves nothing, and takes the place of nothing.
+  if (const auto empty = std::ranges::find_if(course.latest, [](const SwingMark& mark) { return mark.time < 0; });
+      empty != course.latest.end())
+    return *empty;
   SwingMark& mark = course.latest[course.oldest];
   course.oldest = (course.oldest + 1) % course.latest.size();
   return mark;

@@ -12,6 +12,9 @@ namespace tweenfall::graphs {
 /// The course since `start`; may be a new one that replaces another.
 [[nodiscard]] SwingCourse& course_since(SwingMemory& memory, double start) noexcept;
 
+/// What is known of the jumps after an instant: that nothing was searched, at first.
+[[nodiscard]] JumpMark& jump_mark(SwingCourse& course, double instant) noexcept;
+
 /// The place for the next mark, which replaces the oldest.
 [[nodiscard]] SwingMark& next_mark(SwingCourse& course) noexcept;
 /// Keeps a mark for later requests from far ahead back to near it.

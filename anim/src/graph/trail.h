@@ -29,13 +29,30 @@ class Trail {
     const auto end = markers_.begin() + static_cast<std::ptrdiff_t>(marked_);
     if (const auto next = std::partition_point(markers_.begin(), end, is_before); next != markers_.begin())
       found = &*std::prev(next);
-    for (const Mark& mark : latest_)
+    const auto consider = [&](const Mark& mark) {
       if (mark.time >= 0 && is_before(mark) && (!found || mark.time > found->time)) found = &mark;
+    };
+    std::ranges::for_each(latest_.list, consider);
+    std::ranges::for_each(passed_.list, consider);
     return found;
   }
 
   /// The computation passes this place.
   void pass(double time, const Place& place) noexcept {
+    passed_.add({time, place});
+    mark(time, place);
+  }
+  /// The computation stopped here for a request just ahead.
+  void stay(double time, const Place& place) noexcept { latest_.add({time, place}); }
+
+  void forget_after(double time) noexcept {
+    latest_.forget_after(time);
+    passed_.forget_after(time);
+    while (marked_ > 0 && markers_[marked_ - 1].time > time) --marked_;
+  }
+
+ private:
+  void mark(double time, const Place& place) noexcept {
     if (marked_ > 0 && time < markers_[marked_ - 1].time + gap_) return;
     if (marked_ == most_markers) {
       // Every other mark is dropped, and the distance between marks doubles.
@@ -46,22 +63,24 @@ class Trail {
     }
     markers_[marked_++] = {time, place};
   }
-  /// The computation stopped here for a request just ahead.
-  void stay(double time, const Place& place) noexcept {
-    pass(time, place);
-    latest_[oldest_] = {time, place};
-    oldest_ = (oldest_ + 1) % latest_.size();
-  }
 
-  void forget_after(double time) noexcept {
-    for (Mark& mark : latest_)
-      if (mark.time > time) mark.time = -1;
-    while (marked_ > 0 && markers_[marked_ - 1].time > time) --marked_;
-  }
+  /// The last marks that were added.
+  template <std::size_t count>
+  struct Ring {
+    std::array<Mark, count> list{};
+    std::size_t oldest = 0;
 
- private:
-  std::array<Mark, 4> latest_{};
-  std::size_t oldest_ = 0;
+    void add(const Mark& mark) noexcept {
+      list[oldest] = mark;
+      oldest = (oldest + 1) % count;
+    }
+    void forget_after(double time) noexcept {
+      for (Mark& mark : list)
+        if (mark.time > time) mark.time = -1;
+    }
+  };
+  Ring<4> latest_{};
+  Ring<12> passed_{};
   std::array<Mark, most_markers> markers_{};
   std::size_t marked_ = 0;
   double gap_ = 1.0 / 16;

@@ -179,18 +179,18 @@ double Machine::end(const Log& log, double) const noexcept {
   return states_[current(log).state]->end(log, current(log).time);
 }
 
-std::optional<double> Machine::next_jump(const Log& log, double, double after, double until) const {
-  // For all states that show at the start of the stretch, including fading ones, and all that are entered in it.
+std::optional<double> Machine::next_jump(const Log& log, double, const Search& search) const {
+  // For all states that show at the start of the search, including fading ones, and all that are entered in it.
   const Record<Passage>& all = log.passages[number_];
-  const Passages before = tweenfall::graphs::until(all, after, Side::out);
+  const Passages before = until(all, search.since, Side::out);
   ShownPassages shown;
-  const std::size_t count = shown_at(before, after, Side::out, shown);
+  const std::size_t count = shown_at(before, search.since, Side::out, shown);
   const double since = count > 0 ? shown[count - 1].passage->time : all.front().time;
   std::optional<double> first;
   for (auto passage = std::ranges::lower_bound(all, since, {}, &Passage::time);
-       passage != all.end() && passage->time <= first.value_or(until); ++passage)
-    if (const auto next = states_[passage->state]->next_jump(log, passage->time, std::max(after, passage->time),
-                                                             first.value_or(until)))
+       passage != all.end() && passage->time <= first.value_or(search.until); ++passage)
+    if (const auto next = states_[passage->state]->next_jump(
+            log, passage->time, search.from(passage->time).up_to(first.value_or(search.until))))
       first = next;
   return first;
 }

@@ -33,8 +33,7 @@ class Machine : public Operation {
   [[nodiscard]] std::optional<double> next_event(const Log& log, std::string_view name, double start, double after,
                                                  double until) const override;
   [[nodiscard]] double end(const Log& log, double start) const noexcept override;
-  [[nodiscard]] std::optional<double> next_jump(const Log& log, double start, double after,
-                                                double until) const override;
+  [[nodiscard]] std::optional<double> next_jump(const Log& log, double start, const Search& search) const override;
   void bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,
                Bearers& out) const noexcept override;
   [[nodiscard]] std::vector<GraphActivity> activity(const Log& log, double time) const;

@@ -43,7 +43,8 @@ class PlayedClip : public Operation {
     return std::nullopt;
   }
 
-  [[nodiscard]] std::optional<double> next_jump(const Log&, double start, double after, double until) const override {
+  [[nodiscard]] std::optional<double> next_jump(const Log&, double start, const Search& search) const override {
+    const auto [since, after, until] = search;
     double jump = clips::next_moment(rounds(), jumps_.events, start + at_, speed_, after);
     if (formulas_ && speed_ > 0) jump = std::min(jump, next_leap(start + at_, after, std::min(jump, until)));
     return jump <= until ? std::optional(jump) : std::nullopt;

@@ -22,10 +22,10 @@ std::optional<double> Operation::next_event(const Log& log, std::string_view nam
   return first;
 }
 
-std::optional<double> Operation::next_jump(const Log& log, double start, double after, double until) const {
+std::optional<double> Operation::next_jump(const Log& log, double start, const Search& search) const {
   std::optional<double> first;
   for (const Operation* pose : operands())
-    if (const std::optional<double> next = pose->next_jump(log, start, after, first.value_or(until))) first = next;
+    if (const auto next = pose->next_jump(log, start, search.up_to(first.value_or(search.until)))) first = next;
   return first;
 }
 

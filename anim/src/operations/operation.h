@@ -42,6 +42,17 @@ struct Stretch {
   double from, to, start;
 };
 
+/// A search for the first time in (after, until] of something. It may continue one that began at `since`, which found
+/// nothing up to `after`: then both together find what one would.
+struct Search {
+  double since, after, until;
+
+  [[nodiscard]] Search up_to(double time) const noexcept { return {since, after, time}; }
+  [[nodiscard]] Search from(double time) const noexcept {
+    return {std::max(since, time), std::max(after, time), until};
+  }
+};
+
 class Operation;
 
 /// A clip that shows, with its weight, whose root motion moves a figure.
@@ -111,9 +122,9 @@ class Operation {
   [[nodiscard]] virtual std::optional<double> next_event(const Log& log, std::string_view name, double start,
                                                          double after, double until) const;
 
-  /// The first time in (after, until] at which a clip in it, shown or not, makes its pose jump: where its loop
-  /// restarts, or its tracks jump.
-  [[nodiscard]] virtual std::optional<double> next_jump(const Log& log, double start, double after, double until) const;
+  /// The first time at which a clip in it, shown or not, makes its pose jump: where its loop restarts, or its tracks
+  /// jump.
+  [[nodiscard]] virtual std::optional<double> next_jump(const Log& log, double start, const Search& search) const;
 
   /// When all clips have ended; 0 where there are none.
   [[nodiscard]] virtual double end(const Log& log, double start) const noexcept;

@@ -1,11 +1,13 @@
 #include "operations/phase.h"
 
 #include "blending/phase_course.h"
+#include "operations/first_reached.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace tweenfall::graphs {
 
@@ -71,7 +73,7 @@ class Phase::Step {
     const double end = phase.next_beat(log, start, from.time);
     if (std::isfinite(end)) {
       length_ = end - from.time;
-      const Blinkers blinkers(log, std::min(log.until, from.time));
+      const Blinkers blinkers(log, from.time);
       phase.weights_.sample(log, end, Side::in, {last.data(), size_});
     } else {
       from_.place.haste = 0;  // weights that stay have no step in which it could decay
@@ -106,10 +108,10 @@ class Phase::Step {
       return sync_.advanced(phase, passed, {held.data(), size_});
     }
     const auto pace = [&](double seconds, double at) noexcept {
-      std::array<Sample<double>, most_blended> shares;
+      std::array<double, most_blended> shares;
       const double part = seconds / length_, left = 1 - part;
-      for (std::size_t i = 0; i < size_; ++i) shares[i] = share(i, part);
-      return 1 / (sync_.running(at, {shares.data(), size_}).rate * (1 + from_.place.haste * left * left));
+      for (std::size_t i = 0; i < size_; ++i) shares[i] = share(i, part).value;
+      return 1 / (sync_.rate(at, {shares.data(), size_}) * (1 + from_.place.haste * left * left));
     };
     const double wrapped = phase - std::floor(phase / sync_.period()) * sync_.period();
     const blending::PhaseCourse course(pace, passed);
@@ -130,8 +132,9 @@ class Phase::Step {
   }
 
   /// The stop at its end, where the next step begins.
-  [[nodiscard]] Stop stop_at(const Log& log, double time) const noexcept {
-    if (!(time < from_.time + length_)) return {time, {at(time), 0}};
+  /// @param phase  the phase there, if it is known
+  [[nodiscard]] Stop stop_at(const Log& log, double time, std::optional<double> phase = std::nullopt) const noexcept {
+    if (!(time < from_.time + length_)) return {time, {phase ? *phase : at(time), 0}};
     const Sample<double> planned = sample(time);
     std::array<Sample<double>, most_blended> shares;
     phase_.weights_.sample(log, time, Side::in, {shares.data(), size_});
@@ -204,8 +207,11 @@ Phase::Stop Phase::last_stop(const Log& log, double start, double time, Side sid
 
 Sample<double> Phase::at(const Log& log, const Moment& moment) const noexcept {
   if (moment.time > moment.start) {
+    KnownPhases& known = log.known_phases[number_];
+    const KnownPhases::Question question{moment.time, moment.start, std::min(log.until, moment.time), moment.side};
+    if (const Sample<double>* const phase = known.recall(question)) return *phase;
     const Stop from = last_stop(log, moment.start, moment.time, moment.side);
-    return Step(*this, log, moment.start, from).sample(moment.time);
+    return known.remember(question, Step(*this, log, moment.start, from).sample(moment.time));
   }
   std::array<Sample<double>, most_blended> weights;
   const std::span<Sample<double>> own(weights.data(), weights_.size());
@@ -218,57 +224,81 @@ double Phase::way(std::size_t clip, double duration, double phase) const noexcep
   return at.time.value + at.cycle * duration;
 }
 
-void Phase::each_event(const Log& log, std::size_t clip, const Clip& described, double start, double from, double to,
-                       const Visit& visit) const {
-  if (described.events.empty() || !(to >= start)) return;
+namespace {
+
+/// The moments of a clip's events, in order within its loop. Moments in order, as where a clip jumps, need no memory of
+/// their own.
+class Meetings {
+ public:
   struct Meeting {
     double way;
     const ClipEvent* event;
     GraphEvent::Kind kind;
   };
-  // Moments in order, as where a clip jumps, need no memory of their own.
-  const std::vector<ClipEvent>& all = described.events;
-  const bool plain =
-      std::ranges::none_of(all, &ClipEvent::is_interval) && std::ranges::is_sorted(all, {}, &ClipEvent::from);
-  std::vector<Meeting> sorted;
-  for (std::size_t i = 0; !plain && i < all.size(); ++i) {
-    const bool lasts = all[i].is_interval();
-    sorted.push_back({all[i].from, &all[i], lasts ? GraphEvent::Kind::begin : GraphEvent::Kind::moment});
-    if (lasts) sorted.push_back({all[i].to, &all[i], GraphEvent::Kind::end});
+  Meetings() = default;
+  explicit Meetings(const std::vector<ClipEvent>& all) : all_(&all) {
+    if (std::ranges::none_of(all, &ClipEvent::is_interval) && std::ranges::is_sorted(all, {}, &ClipEvent::from)) return;
+    for (const ClipEvent& event : all) {
+      const bool lasts = event.is_interval();
+      sorted_.push_back({event.from, &event, lasts ? GraphEvent::Kind::begin : GraphEvent::Kind::moment});
+      if (lasts) sorted_.push_back({event.to, &event, GraphEvent::Kind::end});
+    }
+    std::ranges::stable_sort(sorted_, {}, &Meeting::way);
   }
-  std::ranges::stable_sort(sorted, {}, &Meeting::way);
-  const std::size_t meetings = plain ? all.size() : sorted.size();
-  const auto meeting_at = [&](std::size_t i) {
-    return plain ? Meeting{all[i].from, &all[i], GraphEvent::Kind::moment} : sorted[i];
-  };
-  const double duration = described.duration;
+
+  [[nodiscard]] std::size_t size() const noexcept { return sorted_.empty() ? all_->size() : sorted_.size(); }
+  [[nodiscard]] Meeting operator[](std::size_t i) const noexcept {
+    return sorted_.empty() ? Meeting{(*all_)[i].from, &(*all_)[i], GraphEvent::Kind::moment} : sorted_[i];
+  }
+
+ private:
+  const std::vector<ClipEvent>* all_ = nullptr;
+  std::vector<Meeting> sorted_;
+};
+
+}  // namespace
+
+void Phase::each_event(const Log& log, std::span<const Clip* const> clips, double start, double from, double to,
+                       const Visit& visit) const {
+  if (!(to >= start)) return;
+  std::array<Meetings, most_blended> meetings;
+  bool any = false;
+  for (std::size_t clip = 0; clip < clips.size(); ++clip) {
+    if (!clips[clip]) continue;
+    meetings[clip] = Meetings(clips[clip]->events);
+    any = any || !clips[clip]->events.empty();
+  }
+  if (!any) return;
   double begin = std::max(from, start);
   bool closed = from < start;
   Stop stop = last_stop(log, start, begin, Side::out);
   for (;;) {
     const Step step(*this, log, start, stop);
     const double next = next_stop(log, start, stop.time), end = std::max(begin, std::min(next, to));
-    const double low = way(clip, duration, step.at(begin)), high = way(clip, duration, step.at(end));
-    // Iterated by count: for very large turn numbers adding 1 changes nothing.
-    const double first = std::floor(low / duration) - 1;
-    for (double count = 0; count <= high / duration - first + 1; ++count)
-      for (std::size_t i = 0; i < meetings; ++i) {
-        const Meeting meeting = meeting_at(i);
-        const double turn = first + count;
-        const double met = meeting.way + turn * duration;
-        if (met > high || met < low || (met == low && !closed)) continue;
-        double before = begin, time = end;  // the way has not reached it at the first, but has at the second
-        if (met == low) time = begin;
-        for (;;) {
-          const double middle = before + (time - before) / 2;
-          if (!(middle > before && middle < time)) break;
-          (way(clip, duration, step.at(middle)) < met ? before : time) = middle;
+    const double first_phase = step.at(begin), last_phase = step.at(end);
+    bool goes_on = true;
+    for (std::size_t clip = 0; clip < clips.size(); ++clip) {
+      if (!clips[clip] || clips[clip]->events.empty()) continue;
+      const double duration = clips[clip]->duration;
+      const double low = way(clip, duration, first_phase), high = way(clip, duration, last_phase);
+      // Iterated by count: for very large turn numbers adding 1 changes nothing.
+      const double first = std::floor(low / duration) - 1;
+      bool more = true;
+      for (double count = 0; more && count <= high / duration - first + 1; ++count)
+        for (std::size_t i = 0; more && i < meetings[clip].size(); ++i) {
+          const Meetings::Meeting meeting = meetings[clip][i];
+          const double turn = first + count;
+          const double met = meeting.way + turn * duration;
+          if (met > high || met < low || (met == low && !closed)) continue;
+          const auto reached = [&](double time) { return !(way(clip, duration, step.at(time)) < met); };
+          const double time = met == low ? begin : first_reached(begin, end, reached);
+          more = visit(time, clip, *meeting.event, meeting.kind);
         }
-        if (!visit(time, *meeting.event, meeting.kind)) return;
-      }
-    if (!(end < to)) return;
+      goes_on = goes_on && more;
+    }
+    if (!goes_on || !(end < to)) return;
     begin = end;
-    stop = step.stop_at(log, end);
+    stop = step.stop_at(log, end, last_phase);
     closed = false;
   }
 }

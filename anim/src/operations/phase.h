@@ -50,10 +50,12 @@ class Phase {
   /// The phase, with its rate.
   [[nodiscard]] Sample<double> at(const Log& log, const Moment& moment) const noexcept;
 
-  /// Calls `visit(time, event, kind)` with the events of a clip in (from, to], and at `start` where `from` is before
-  /// it, in order, until it returns false.
-  using Visit = std::function<bool(double, const ClipEvent&, GraphEvent::Kind)>;
-  void each_event(const Log& log, std::size_t clip, const Clip& described, double start, double from, double to,
+  /// Calls `visit(time, clip, event, kind)` with the events of clips in (from, to], and at `start` where `from` is
+  /// before it: those of each clip in order, but those of several clips only roughly. Where it returns false, only
+  /// events of other clips that may be earlier follow.
+  /// @param clips  one for each clip of the phase, with its duration; null: not asked for
+  using Visit = std::function<bool(double, std::size_t, const ClipEvent&, GraphEvent::Kind)>;
+  void each_event(const Log& log, std::span<const Clip* const> clips, double start, double from, double to,
                   const Visit& visit) const;
 
  private:

@@ -112,43 +112,41 @@ class SyncedSpace : public Operation {
   }
 
   void events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const override {
-    for (std::size_t i = 0; i < clips_.size(); ++i) {
-      phase_.each_event(log, i, clips_[i]->clip, stretch.start, stretch.from, stretch.to,
-                        [&](double time, const ClipEvent& event, GraphEvent::Kind kind) {
-                          std::array<Sample<double>, most_blended> weights;
-                          phase_.weights().sample(log, time, Side::out, {weights.data(), clips_.size()});
-                          out.push_back({time, event.name, event.data, clips_[i]->number, kind, weights[i].value});
-                          return true;
-                        });
-    }
+    const Asked clips = asked([](const LoopedClip& each) { return &each.clip; });
+    phase_.each_event(log, {clips.data(), clips_.size()}, stretch.start, stretch.from, stretch.to,
+                      [&](double time, std::size_t i, const ClipEvent& event, GraphEvent::Kind kind) {
+                        std::array<Sample<double>, most_blended> weights;
+                        phase_.weights().sample(log, time, Side::out, {weights.data(), clips_.size()});
+                        out.push_back({time, event.name, event.data, clips_[i]->number, kind, weights[i].value});
+                        return true;
+                      });
   }
 
   [[nodiscard]] std::optional<double> next_event(const Log& log, std::string_view name, double start, double after,
                                                  double until) const override {
+    const Asked clips = asked([&](const LoopedClip& each) {
+      const std::vector<ClipEvent>& events = each.clip.events;
+      return std::ranges::find(events, name, &ClipEvent::name) == events.end() ? nullptr : &each.clip;
+    });
     std::optional<double> first;
-    for (std::size_t i = 0; i < clips_.size(); ++i) {
-      const std::vector<ClipEvent>& events = clips_[i]->clip.events;
-      if (std::ranges::find(events, name, &ClipEvent::name) == events.end()) continue;
-      phase_.each_event(log, i, clips_[i]->clip, start, after, first.value_or(until),
-                        [&](double time, const ClipEvent& event, GraphEvent::Kind kind) {
-                          if (event.name != name || kind == GraphEvent::Kind::end) return true;
-                          first = time;
-                          return false;
-                        });
-    }
+    phase_.each_event(log, {clips.data(), clips_.size()}, start, after, until,
+                      [&](double time, std::size_t, const ClipEvent& event, GraphEvent::Kind kind) {
+                        if (event.name != name || kind == GraphEvent::Kind::end) return true;
+                        first = std::min(first.value_or(time), time);
+                        return false;
+                      });
     return first;
   }
 
-  [[nodiscard]] std::optional<double> next_jump(const Log& log, double start, double after,
-                                                double until) const override {
+  [[nodiscard]] std::optional<double> next_jump(const Log& log, double start, const Search& search) const override {
+    const Asked clips = asked([](const LoopedClip& each) { return &each.jumps; });
     std::optional<double> first;
-    for (std::size_t i = 0; i < clips_.size(); ++i)
-      phase_.each_event(log, i, clips_[i]->jumps, start, after, first.value_or(until),
-                        [&](double time, const ClipEvent&, GraphEvent::Kind) {
-                          if (!(time > after)) return true;
-                          first = time;
-                          return false;
-                        });
+    phase_.each_event(log, {clips.data(), clips_.size()}, start, search.after, search.until,
+                      [&](double time, std::size_t, const ClipEvent&, GraphEvent::Kind) {
+                        if (!(time > search.after)) return true;
+                        first = std::min(first.value_or(time), time);
+                        return false;
+                      });
     return first;
   }
 
@@ -166,6 +164,15 @@ class SyncedSpace : public Operation {
     clock.started = true;
     clock.side = side;
     return clock;
+  }
+
+  using Asked = std::array<const Clip*, most_blended>;
+  /// @param of  what is asked for of a clip; null for nothing
+  template <class Of>
+  [[nodiscard]] Asked asked(const Of& of) const {
+    Asked clips{};
+    for (std::size_t i = 0; i < clips_.size(); ++i) clips[i] = of(*clips_[i]);
+    return clips;
   }
 
   std::vector<const LoopedClip*> clips_;

@@ -199,7 +199,7 @@ Motion Travel::step(const Log& log, const Bearers& first, const Step& step, doub
   // Planned to its end as if nothing more happened: the path until the next instant depends only on what is known here.
   const double h = step.end - step.from, x = to - step.from;
   const auto at_end = [&](const auto& ask) {
-    const Blinkers blinkers(log, std::min(log.until, step.from));
+    const Blinkers blinkers(log, step.from);
     return ask();
   };
   const Bearers last = at_end([&] { return bearers_at(log, {step.end, Side::in, step.start}); });
@@ -297,9 +297,8 @@ Motion Travel::lapped(const Log& log, const Moment& moment, const TravelPlace& r
 
 Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) const noexcept {
   // Hidden inputs have not happened, and marks beyond them do not count.
-  const double unseen = log.until < never ? next_instant(log, log.until) : never;
+  const double sure = last_sure(log);
   auto& trail = log.travels[number_].since(moment.start);
-  const double sure = std::nextafter(unseen, -1.0);
   const double limit = std::min(moment.time, sure);
   const auto* const mark = trail.last_mark(limit, limit < moment.time || moment.side == Side::out);
   const double began = mark ? mark->time : moment.start;
@@ -308,7 +307,7 @@ Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) 
   for (;;) {
     const Bearers bearers = bearers_at(log, {here, Side::out, moment.start});
     double instant = next_instant(log, here);
-    if (instant >= unseen) instant = never;
+    if (instant > sure) instant = never;
     const bool happens = instant < moment.time || (instant == moment.time && moment.side == Side::out);
     double next = instant;
     Step own{moment.start, here, never, true, reached.haste};

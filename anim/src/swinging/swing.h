@@ -8,6 +8,7 @@
 #include "operations/changing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -55,13 +56,14 @@ class Swing : public Changing {
     if (!memory.prepared) prepare(memory);
     SwingCourse& course = course_since(memory, moment.start);
     SwingMark& here = next_mark(course);
-    take_up(script, course, moment, here);
+    const double sure = last_sure(log);
+    take_up(script, course, moment, sure, here);
     State& state = std::get<State>(here.state);
     for (;;) {
-      const double from = here.instant, jump = jump_of_base(script, moment, from);
+      const double from = here.instant, jump = jump_of_base(script, course, moment, from);
       const Clock clock{&script, from, jump};
       const PoseAt pose_at = [&clock](double time, std::span<Motion> out) { clock.at(time, out); };
-      const double next = std::min(jump, next_instant(log, from));
+      const double next = std::min(jump, next_shown(log, from, sure));
       if (moment.side == Side::out ? next > moment.time : next >= moment.time) {
         const Blinkers blinkers(log, from);
         show(state, moment.time - from, {log, from, moment.start, moment.side}, pose_at, weight, work, pose);
@@ -79,12 +81,21 @@ class Swing : public Changing {
       const Blinkers blinkers(log, from);
       begin_again(state, next - from, {log, from, moment.start}, pose_at, work, before, after);
       here.instant = here.time = next;
-      keep(course, here);
+      if (next <= sure) keep(course, here);
     }
-    keep(course, here);
+    if (here.time <= sure)
+      keep(course, here);
+    else
+      here.instant = here.time = -1;  // where something hidden is missing, it does not count
   }
 
  private:
+  /// The next instant that is not hidden.
+  static double next_shown(const Log& log, double after, double sure) noexcept {
+    const double next = next_instant(log, after);
+    return next > sure ? std::numeric_limits<double>::infinity() : next;
+  }
+
   /// The base at any time.
   struct Script {
     const Swing& swing;
@@ -120,13 +131,30 @@ class Swing : public Changing {
 
   /// The first time after a clock began at which the base may jump, because of a clip in it or of what lies below the
   /// graph, up to two steps beyond the clock or the moment: springs look ahead by no more than one; infinity for none.
-  [[nodiscard]] double jump_of_base(const Script& script, const Moment& moment, double from) const noexcept {
-    const double until = std::min(moment.time, next_instant(script.log, from)) + 2 * step_;
+  [[nodiscard]] double jump_of_base(const Script& script, SwingCourse& course, const Moment& moment,
+                                    double from) const noexcept {
+    const Log& log = script.log;
+    // Beyond a hidden instant the base looks different than it will: that is not remembered.
+    const double sure = last_sure(log);
+    const double until = std::min(moment.time, next_shown(log, from, sure)) + 2 * step_;
+    JumpMark& mark = jump_mark(course, from);
+    const double known = std::max(from, std::min(mark.searched, sure));
+    if (mark.jump <= known) return mark.jump <= until ? mark.jump : std::numeric_limits<double>::infinity();
+    if (until <= known) return std::numeric_limits<double>::infinity();
+    const double found = first_jump_of_base(script, moment.start, {from, known, until});
+    if (until > sure) return found;
+    // A time that is rounded may be on either side of the end of a search, so the next one begins a little before.
+    mark.searched = std::max(known, std::min(found, until - 1e-9 * (1 + until)));
+    mark.jump = found;
+    return found;
+  }
+  [[nodiscard]] double first_jump_of_base(const Script& script, double start, const Search& search) const noexcept {
     double first = std::numeric_limits<double>::infinity();
-    if (base()) first = base()->next_jump(script.log, moment.start, from, until).value_or(first);
+    if (base()) first = base()->next_jump(script.log, start, search).value_or(first);
     const GraphGround& ground = *script.free.ground;
     // Every pose shows what is below, where its clips do not move a node.
-    if (ground.next_jump) first = ground.next_jump(from, std::min(first, until)).value_or(first);
+    if (ground.next_jump)
+      first = ground.next_jump(search.since, search.after, std::min(first, search.until)).value_or(first);
     return first;
   }
 
@@ -146,14 +174,16 @@ class Swing : public Changing {
   }
 
   /// Sets `here` to the mark to continue from.
-  void take_up(const Script& script, const SwingCourse& course, const Moment& moment, SwingMark& here) const noexcept {
+  void take_up(const Script& script, SwingCourse& course, const Moment& moment, double sure,
+               SwingMark& here) const noexcept {
     here.instant = here.time = -1;  // so that `here` itself is not found
     // What arrives at an instant is not yet on the clock that begins there.
-    double instant = moment.side == Side::out ? moment.time : std::nextafter(moment.time, -1.0), limit = moment.time;
+    double instant = std::min(sure, moment.side == Side::out ? moment.time : std::nextafter(moment.time, -1.0));
+    double limit = std::min(sure, moment.time);
     while (const SwingMark* found = furthest_mark(course, instant, limit)) {
       // A mark on an earlier clock is valid up to the end of that clock.
-      const double end = std::min(
-          {moment.time, next_instant(script.log, found->instant), jump_of_base(script, moment, found->instant)});
+      const double end = std::min({moment.time, next_shown(script.log, found->instant, sure),
+                                   jump_of_base(script, course, moment, found->instant)});
       if (found->time <= end && std::holds_alternative<State>(found->state)) {
         here = *found;
         return;

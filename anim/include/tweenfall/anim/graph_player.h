@@ -81,8 +81,8 @@ struct GraphGround {
   /// The value of a user track there; none: nothing has it.
   std::function<UserValue(std::string_view track, double time, Side side)> user_value{};
   /// The first time in (after, until] at which the pose there may jump, or was changed from outside; none: it never
-  /// jumps.
-  std::function<std::optional<double>(double after, double until)> next_jump{};
+  /// jumps. It may continue a search that began at `since` and found nothing up to `after`.
+  std::function<std::optional<double>(double since, double after, double until)> next_jump{};
 };
 
 class GraphPlayer {
@@ -139,7 +139,9 @@ class GraphPlayer {
   /// count where accumulated root motion carries the pose over it.
   [[nodiscard]] std::optional<double> first_instant(double from, double to);
   /// The same, and every seam counts, without a look at the pose; also what the ground tells.
-  [[nodiscard]] std::optional<double> first_possible_jump(double from, double to);
+  /// @param since  when the search began, if it found nothing up to `from`; none: it begins there
+  [[nodiscard]] std::optional<double> first_possible_jump(double from, double to,
+                                                          std::optional<double> since = std::nullopt);
 
   // Inspection. Machines are numbered from 0 in the order of the graph's poses.
   [[nodiscard]] std::size_t machines() const noexcept;
@@ -166,7 +168,7 @@ class GraphPlayer {
   void know(double time);
   void recall();
   void lie_on(GraphGround ground);
-  [[nodiscard]] std::optional<double> instant(double from, double to, bool looks);
+  [[nodiscard]] std::optional<double> instant(double since, double from, double to, bool looks);
   void evaluate(double time, std::span<Motion> local, Side side) noexcept;
 
   struct Run;

@@ -60,6 +60,9 @@ class MarkerSync {
   /// @param weights  one for each clip; negative ones count as 0, and where all are 0 all count the same
   [[nodiscard]] Sample<double> running(double phase, std::span<const Sample<double>> weights) const noexcept;
 
+  /// The rate of `running` alone, phases per second, for long computations.
+  [[nodiscard]] double rate(double phase, std::span<const double> weights) const noexcept;
+
   /// The phase some seconds later (or earlier, if negative) under constant weights: exact over any number of loops,
   /// because the advance of the clips, averaged by the weights, is the number of seconds.
   [[nodiscard]] double advanced(double phase, double seconds, std::span<const double> weights) const noexcept;
@@ -90,6 +93,8 @@ class MarkerSync {
   struct Place;
   [[nodiscard]] static Place place(const Stretch& stretch, double part) noexcept;
   [[nodiscard]] static Place place(const Track& track, double phase) noexcept;
+  /// The first derivative alone, seconds per phase.
+  [[nodiscard]] static double slope(const Track& track, double phase) noexcept;
   /// The part that a clip has of the weights, whose sum is `sum`.
   [[nodiscard]] double share(std::span<const double> weights, double sum, std::size_t clip) const noexcept;
   /// How far a clip comes in one period, s.
