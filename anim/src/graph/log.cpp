@@ -180,10 +180,20 @@ Sample<double> sample_of(const Log& log, const GraphDescription& description, st
   return sample_of(setting_at(log.settings[parameter], sight.time, sight.side), described.half_life, time);
 }
 
+bool changes(const Curve<double>& curve, double time) noexcept {
+  const bool waits = time < curve.start() && curve.before() == Outside::hold;
+  return !waits && !(time >= curve.end() && curve.after() == Outside::hold);
+}
+
+double first_change(const Curve<double>& curve, double after) noexcept {
+  const bool waits = after < curve.start() && curve.before() == Outside::hold && curve.end() > curve.start();
+  return waits ? curve.start() : std::numeric_limits<double>::infinity();
+}
+
 bool flows(const Log& log, const GraphDescription& description, std::size_t parameter, double time,
            Side side) noexcept {
   const GraphParameter& described = description.parameters[parameter];
-  if (described.curve) return true;
+  if (described.curve) return changes(*described.curve, time);
   const Sight sight = seen(log, time, side);
   return !has_arrived(setting_at(log.settings[parameter], sight.time, sight.side), described.half_life, time);
 }

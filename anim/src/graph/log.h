@@ -231,7 +231,13 @@ void forget_after(Log& log, const GraphDescription& description, double time);
 /// The value that poses see.
 [[nodiscard]] Sample<double> sample_of(const Log& log, const GraphDescription& description, std::size_t parameter,
                                        double time, Side side) noexcept;
-/// Whether that may change from a time until the next setting: it has keys, or has not come to what was set.
+/// Whether a curve may change its value from a time on, before `first_change`: not before the first key that it waits
+/// for, nor after the last one that it holds.
+[[nodiscard]] bool changes(const Curve<double>& curve, double time) noexcept;
+/// When a curve that waits for its first key after a time begins to change; infinity for none.
+[[nodiscard]] double first_change(const Curve<double>& curve, double after) noexcept;
+
+/// Whether that may change from a time until the next setting: its keys do, or it has not come to what was set.
 [[nodiscard]] bool flows(const Log& log, const GraphDescription& description, std::size_t parameter, double time,
                          Side side) noexcept;
 

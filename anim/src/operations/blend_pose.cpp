@@ -55,7 +55,7 @@ class Blended : public Operation {
       weights[i] = as_weight(parts_[i].weight.sample(log, moment.time, moment.side), moment.side);
       sum.value += weights[i].value;
       sum.rate += weights[i].rate;
-      if (parts_[i].weight.flows(log, moment.time, moment.side)) out.flow = true;
+      out.note(log, parts_[i].weight, moment);
     }
     if (!(sum.value >= least_weight)) sum = {least_weight, 0, 0};
     for (std::size_t i = 0; i < parts_.size(); ++i) {

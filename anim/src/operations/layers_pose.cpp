@@ -74,7 +74,7 @@ class Layered : public Operation {
       const Layer& layer = layers_[i];
       const double reach = layer.mask.size() == 0 ? 1 : node < layer.mask.size() ? layer.mask[node] : 0;
       if ((layer.adds && !out.adds) || reach == 0) continue;
-      if (layer.weight.flows(log, moment.time, moment.side)) out.flow = true;
+      out.note(log, layer.weight, moment);
       const Sample<double> own =
           product({reach, 0, 0}, as_share(layer.weight.sample(log, moment.time, moment.side), moment.side));
       if (is_nothing(own)) continue;

@@ -28,9 +28,27 @@ class Number {
     return {constant_, 0, 0};
   }
 
-  /// Whether it may change from a time until the next setting.
+  /// Whether it may change from a time until the next setting or `first_change`.
   [[nodiscard]] bool flows(const Log& log, double time, Side side) const noexcept {
-    return curve_ || (description_ && graphs::flows(log, *description_, parameter_, time, side));
+    if (curve_) return changes(*curve_, time);
+    return description_ && graphs::flows(log, *description_, parameter_, time, side);
+  }
+  /// When keys that come later begin to change it; infinity for none.
+  [[nodiscard]] double first_change(double after) const noexcept {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (curve_) return graphs::first_change(*curve_, after);
+    if (!description_ || !description_->parameters[parameter_].curve) return never;
+    return graphs::first_change(*description_->parameters[parameter_].curve, after);
+  }
+  /// When it was last set or keys began to change it, up to a time; -infinity for never.
+  [[nodiscard]] double last_change(const Log& log, double time) const noexcept {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (!curve_ && !description_) return -never;
+    const std::optional<Curve<double>>& keys = curve_ ? curve_ : description_->parameters[parameter_].curve;
+    if (keys) return keys->start() <= time ? keys->start() : -never;
+    const Record<Setting>& settings = log.settings[parameter_];
+    const auto next = std::ranges::upper_bound(settings, std::min(time, log.until), {}, &Setting::time);
+    return next == settings.begin() ? -never : std::prev(next)->time;
   }
   /// The first time after `after` at which it is set; infinity for none.
   [[nodiscard]] double next_setting(const Log& log, double after) const noexcept {

@@ -72,10 +72,20 @@ struct Bearers {
   static constexpr std::size_t most = 64;
   std::array<Bearer, most> list;
   std::size_t count = 0;
-  bool flow = false;    // their weights may change without an input
+  bool flow = false;                                             // their weights may change without an input
+  double flow_from = std::numeric_limits<double>::infinity();    // s; when they do later, if they do not now
+  double flow_since = -std::numeric_limits<double>::infinity();  // s; when that began last
   bool adds = false;    // layers that add count, too, and their references as much below 0
   bool adding = false;  // what comes now is of such a layer
 
+  /// Adds whether a weight changes without an input.
+  /// @param weight  a number, or several at once
+  template <class Weight>
+  void note(const Log& log, const Weight& weight, const Moment& moment) noexcept {
+    flow = flow || weight.flows(log, moment.time, moment.side);
+    flow_from = std::min(flow_from, weight.first_change(moment.time));
+    flow_since = std::max(flow_since, weight.last_change(log, moment.time));
+  }
   [[nodiscard]] const Bearer* find(const Bearer& wanted) const noexcept {
     for (std::size_t i = 0; i < count; ++i)
       if (list[i].is(wanted)) return &list[i];

@@ -46,9 +46,22 @@ void SpaceWeights::sample(const Log& log, double time, Side side, std::span<Samp
     std::get<BlendPlane>(space_).weights(at, weights, side);
 }
 
+double SpaceWeights::first_change(double after) const noexcept {
+  double first = std::numeric_limits<double>::infinity();
+  for (const Number& number : by_) first = std::min(first, number.first_change(after));
+  return first;
+}
+
+double SpaceWeights::last_change(const Log& log, double time) const noexcept {
+  double last = -std::numeric_limits<double>::infinity();
+  for (const Number& number : by_) last = std::max(last, number.last_change(log, time));
+  return last;
+}
+
 double SpaceWeights::next_setting(const Log& log, double after) const noexcept {
   double next = std::numeric_limits<double>::infinity();
-  for (const Number& number : by_) next = std::min(next, number.next_setting(log, after));
+  for (const Number& number : by_)
+    next = std::min(next, std::min(number.next_setting(log, after), number.first_change(after)));
   return next;
 }
 
@@ -58,8 +71,8 @@ double SpaceWeights::first_unseen(const Log& log) const noexcept {
   return first;
 }
 
-bool SpaceWeights::flows(const Log& log, double time) const noexcept {
-  return std::ranges::any_of(by_, [&](const Number& number) { return number.flows(log, time, Side::out); });
+bool SpaceWeights::flows(const Log& log, double time, Side side) const noexcept {
+  return std::ranges::any_of(by_, [&](const Number& number) { return number.flows(log, time, side); });
 }
 
 /// From one stop to the next, with the course of the shares until then as if there were no more settings, so that later
@@ -177,9 +190,12 @@ Phase::Phase(MarkerSync sync, SpaceWeights weights, std::size_t number)
 
 double Phase::next_beat(const Log& log, double start, double after) const noexcept {
   if (weights_.flows(log, after)) {
-    const double passed = std::floor((after - start) * stops_per_second);
+    double per_second = stops_per_second;
+    const double since = after - std::max(start, weights_.last_change(log, after));
+    for (double reach = 4096; since >= reach; reach *= 2) per_second /= 2;
+    const double passed = std::floor((after - start) * per_second);
     for (double count = std::max(passed, 0.0); count <= passed + 2; ++count)
-      if (const double stop = start + count / stops_per_second; stop > after) return stop;
+      if (const double stop = start + count / per_second; stop > after) return stop;
   }
   return std::numeric_limits<double>::infinity();
 }

@@ -20,12 +20,16 @@ class SpaceWeights {
 
   void sample(const Log& log, double time, Side side, std::span<Sample<double>> weights) const noexcept;
 
-  /// The first time after `after` at which a parameter is set; infinity for none.
+  /// The first time after `after` at which a parameter is set, or keys begin; infinity for none.
   [[nodiscard]] double next_setting(const Log& log, double after) const noexcept;
+  /// When keys that come later begin to change the weights; infinity for none.
+  [[nodiscard]] double first_change(double after) const noexcept;
+  /// When a parameter was last set, or keys began, up to a time; -infinity for never.
+  [[nodiscard]] double last_change(const Log& log, double time) const noexcept;
   /// The first setting that is hidden while looking ahead; infinity for none.
   [[nodiscard]] double first_unseen(const Log& log) const noexcept;
   /// Whether the weights may change from a time until the next setting.
-  [[nodiscard]] bool flows(const Log& log, double time) const noexcept;
+  [[nodiscard]] bool flows(const Log& log, double time, Side side = Side::out) const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
  private:
@@ -35,10 +39,11 @@ class SpaceWeights {
 };
 
 /// The phase runs from the start of the state around it, with the first clip at its beginning. It stops at every
-/// setting and, while weights change continuously, 480 times per second, so that results do not depend on the times
-/// sampled. Within a step, shares are cubics from their values and rates at its ends, so that the rate is exactly the
-/// derivative of the value. A setting within a step cuts it short; if the phase ran faster there than the weights say,
-/// as where a weight kinks, the excess decays until the planned end of the step, so the rate does not jump.
+/// setting and, while weights change continuously, 480 times per second, and half as often whenever the time since then
+/// has doubled from 4096 s on, so that results do not depend on the times sampled. Within a step, shares are cubics
+/// from their values and rates at its ends, so that the rate is exactly the derivative of the value. A setting within a
+/// step cuts it short; if the phase ran faster there than the weights say, as where a weight kinks, the excess decays
+/// until the planned end of the step, so the rate does not jump.
 class Phase {
  public:
   /// @param number index among the phases of the graph

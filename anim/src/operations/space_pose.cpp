@@ -50,7 +50,7 @@ class Space : public Operation {
                Bearers& out) const noexcept override {
     std::array<Sample<double>, most_blended> weights;
     weights_.sample(log, moment.time, moment.side, {weights.data(), poses_.size()});
-    if (weights_.flows(log, moment.time)) out.flow = true;
+    out.note(log, weights_, moment);
     for (std::size_t i = 0; i < poses_.size(); ++i)
       if (!is_nothing(weights[i])) poses_[i]->bearers(log, moment, node, product(weight, weights[i]), out);
   }
@@ -90,7 +90,7 @@ class SyncedSpace : public Operation {
                Bearers& out) const noexcept override {
     std::array<Sample<double>, most_blended> weights;
     phase_.weights().sample(log, moment.time, moment.side, {weights.data(), clips_.size()});
-    if (phase_.weights().flows(log, moment.time)) out.flow = true;
+    out.note(log, phase_.weights(), moment);
     for (std::size_t i = 0; i < clips_.size(); ++i)
       if (!is_nothing(weights[i])) out.add({this, i, moment.start, product(weight, weights[i])});
   }

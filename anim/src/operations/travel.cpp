@@ -308,6 +308,7 @@ Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) 
     const Bearers bearers = bearers_at(log, {here, Side::out, moment.start});
     double instant = next_instant(log, here);
     if (instant > sure) instant = never;
+    instant = std::min(instant, bearers.flow_from);
     const bool happens = instant < moment.time || (instant == moment.time && moment.side == Side::out);
     double next = instant;
     Step own{moment.start, here, never, true, reached.haste};
@@ -328,7 +329,8 @@ Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) 
         if (here <= sure) trail.pass(here, reached);
         continue;
       }
-      own.end = std::min(lap_end, next_stop(last_instant(log, moment.start, here, Side::out), here));
+      own.end = std::min(
+          lap_end, next_stop(std::max(last_instant(log, moment.start, here, Side::out), bearers.flow_since), here));
       next = std::min(next, own.end);
     }
     if (next > moment.time || (next == moment.time && moment.side == Side::in)) {
