@@ -43,6 +43,13 @@ struct Graph::Compiled {
   std::vector<Curve<double>> jumping;                // numbers over the graph's time that jump
   std::vector<std::optional<std::size_t>> reacting;  // by reaction: the parameter that it sets
 
+  struct UserTrack {
+    const Track* first;  // of that name in the clips
+    std::size_t node;    // `no_node` where it is of no node
+    bool shows;          // in a clip of the graph
+  };
+  std::map<std::string, UserTrack, std::less<>> user_tracks{};
+
   /// Whether some clip colors a node, or has its morph weights.
   [[nodiscard]] bool looks(std::size_t node) const noexcept {
     return std::ranges::any_of(clips, [&](const auto& clip) {

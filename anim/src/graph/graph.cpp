@@ -1,6 +1,7 @@
 #include <tweenfall/anim/graph.h>
 
 #include "graph/binder.h"
+#include "pose/clip_values.h"
 
 #include <algorithm>
 
@@ -12,6 +13,24 @@ std::vector<GraphFault> inspect(const GraphDescription& description, const Hiera
   binder.bind_all();
   return binder.take_faults();
 }
+
+namespace graphs {
+namespace {
+
+void resolve_user_tracks(Graph::Compiled& compiled, const Hierarchy& nodes, std::span<const Clip> clips) {
+  for (const Clip& clip : clips)
+    for (const Track& track : clip.tracks) {
+      if (!pose::is_user_track(track)) continue;
+      const std::string name = track.name();
+      const auto has_it = [&](const auto& shown) { return shown->bound->user_track(name) != nullptr; };
+      const Graph::Compiled::UserTrack entry{&track, nodes.find(track.node).value_or(no_node),
+                                             std::ranges::any_of(compiled.clips, has_it)};
+      compiled.user_tracks.emplace(name, entry);
+    }
+}
+
+}  // namespace
+}  // namespace graphs
 
 Graph::Graph(std::shared_ptr<const Hierarchy> nodes, std::shared_ptr<const std::vector<Clip>> clips,
              GraphDescription description)
@@ -25,7 +44,9 @@ Graph::Graph(std::shared_ptr<const Hierarchy> nodes, std::shared_ptr<const std::
     problems += ": " + fault.message;
   }
   if (!problems.empty()) throw std::invalid_argument("a graph does not hold together:" + problems);
-  compiled_ = binder.take_compiled();
+  std::unique_ptr<Compiled> compiled = binder.take_compiled();
+  graphs::resolve_user_tracks(*compiled, *nodes_, *clips_);
+  compiled_ = std::move(compiled);
 }
 
 Graph::~Graph() = default;

@@ -205,13 +205,15 @@ NodeLook GraphPlayer::look_at(std::size_t node, double time, Side side) {
 
 UserValue GraphPlayer::user_value_at(std::string_view track, double time, Side side) {
   graphs::require_time(time, 0);
-  const Track& named = pose::user_track_named(graph_->clips(), track);
+  const auto& tracks = graph_->compiled().user_tracks;
+  const auto known = tracks.find(track);
+  if (known == tracks.end()) static_cast<void>(pose::user_track_named(graph_->clips(), track));  // throws
+  const auto& [first, node, shows] = known->second;
   UserValue below =
-      run_->ground.user_value ? run_->ground.user_value(track, time, side) : pose::nothing_of(named.curve);
-  const auto has_it = [&](const auto& clip) { return clip->bound->user_track(track) != nullptr; };
-  if (std::ranges::none_of(graph_->compiled().clips, has_it)) return below;
+      run_->ground.user_value ? run_->ground.user_value(track, time, side) : pose::nothing_of(first->curve);
+  if (!shows) return below;
   know(time);
-  return graphs::user_value_of(run_->log, *graph_, track, {time, side, 0}, below);
+  return graphs::user_value_of(run_->log, *graph_, track, node, {time, side, 0}, below);
 }
 
 Sample<double> GraphPlayer::parameter(std::string_view name) const {

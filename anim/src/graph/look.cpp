@@ -107,10 +107,8 @@ NodeLook look_of(const Log& log, const Graph& graph, std::size_t node, const Mom
   return result;
 }
 
-UserValue user_value_of(const Log& log, const Graph& graph, std::string_view track, const Moment& moment,
-                        const UserValue& below) {
-  const std::size_t dot = track.rfind('.');
-  const std::size_t node = graph.nodes().find(track.substr(0, dot)).value_or(no_node);
+UserValue user_value_of(const Log& log, const Graph& graph, std::string_view track, std::size_t node,
+                        const Moment& moment, const UserValue& below) {
   const bool adds = pose::has_sums(below);
   Shared<UserValue> mixed, added;
   const auto visit = [&](const pose::BoundClip* clip, const ClipClock& clock, const Sample<double>& share, bool over) {

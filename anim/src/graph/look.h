@@ -15,8 +15,10 @@ namespace tweenfall::graphs {
 [[nodiscard]] NodeLook look_of(const Log& log, const Graph& graph, std::size_t node, const Moment& moment,
                                const NodeLook& below);
 
-/// The mean value of a user track, "node.property", over the clips that show. @param below its value below the graph
-[[nodiscard]] UserValue user_value_of(const Log& log, const Graph& graph, std::string_view track, const Moment& moment,
-                                      const UserValue& below);
+/// The mean value of a user track, "node.property", over the clips that show.
+/// @param node   of the track; `no_node` for none
+/// @param below  its value below the graph
+[[nodiscard]] UserValue user_value_of(const Log& log, const Graph& graph, std::string_view track, std::size_t node,
+                                      const Moment& moment, const UserValue& below);
 
 }  // namespace tweenfall::graphs
