@@ -8,6 +8,7 @@
 #include "plot/track_angles.h"
 #include "plot/track_handles.h"
 #include "recording/key_lanes.h"
+#include "recording/user_numbers.h"
 #include "recording/words.h"
 
 #include <algorithm>
@@ -288,6 +289,18 @@ void add_recorded(PlottedTrack& plotted, const Recording& recording) {
   }
 }
 
+/// A user track as plays and graphs mix it, where they do.
+void add_mixed(PlottedTrack& plotted, const StageDescription& stage, const Recording& recording) {
+  if (stage.graphs.empty() && stage.plays.size() < 2) return;
+  const auto found = std::ranges::find(recording.user_tracks, plotted.track->name(), &UserTrackRecord::name);
+  if (found == recording.user_tracks.end() || recordings::number_names(*found).size() != plotted.names.size()) return;
+  std::vector<TrackPoint> points;
+  for (std::size_t frame = 0; frame < found->value.size(); ++frame)
+    points.push_back(
+        {recording.times[frame], recordings::numbers_at(*found, frame), recordings::rates_at(*found, frame)});
+  if (!points.empty()) plotted.simulated.push_back(std::move(points));
+}
+
 void add_events(PlottedTrack& plotted, const Shown& shown, const Recording* recording) {
   if (!recording) {
     for (const ClipEvent& event : shown.clip->events) plotted.moments.push_back({event.from, event.name, false});
@@ -363,6 +376,7 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
       add_events(plotted, shown, recording);
       if (recording) add_recorded(plotted, *recording);
       name_parts(plotted);
+      if (recording) add_mixed(plotted, stage, *recording);
       leave_out_unplottable(plotted);
       result.tracks.push_back(std::move(plotted));
     }

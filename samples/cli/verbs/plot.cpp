@@ -106,8 +106,19 @@ int plot_file(const PlotFileOptions& options) {
   const bool plays = std::any_of(stage.plays.begin(), stage.plays.end(), [&](const Play& play) {
     return std::find(clips.begin(), clips.end(), play.clip) != clips.end();
   });
+  // What several plays or graphs mix of user tracks is shown over the curves.
+  const bool mixes = !stage.graphs.empty() || (plays && stage.plays.size() > 1);
+  const auto is_user_track = [&](const Track& track) {
+    const auto& names = plotted.tracks;
+    return property_named(track.property) == Property::user &&
+           (names.empty() || std::find(names.begin(), names.end(), track.name()) != names.end());
+  };
+  const bool has_mixed =
+      mixes && std::any_of(clips.begin(), clips.end(), [&](std::size_t clip) {
+        return std::any_of(stage.clips[clip].tracks.begin(), stage.clips[clip].tracks.end(), is_user_track);
+      });
   std::optional<Recording> recording;
-  if (has_bodies && plays) {
+  if ((has_bodies && plays) || has_mixed) {
     // Particles move nothing that is plotted.
     StageDescription shown = stage;
     shown.particles.clear();

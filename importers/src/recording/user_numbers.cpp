@@ -1,0 +1,81 @@
+#include "recording/user_numbers.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace tweenfall::recordings {
+
+namespace {
+
+std::size_t longest(const UserTrackRecord& track) {
+  std::size_t most = 0;
+  for (const UserValue& value : track.value)
+    if (const auto* all = std::get_if<std::vector<Sample<double>>>(&value)) most = std::max(most, all->size());
+  return most;
+}
+
+template <class T>
+std::vector<double> parts_of(const T& value) {
+  if constexpr (std::is_same_v<T, double>)
+    return {value};
+  else if constexpr (std::is_same_v<T, Color>)
+    return parts_of(value.rgba);
+  else if constexpr (std::is_same_v<T, Quat>)
+    return parts_of(Vec4(value.coeffs()));
+  else
+    return std::vector<double>(value.data(), value.data() + value.size());
+}
+
+}  // namespace
+
+std::vector<std::string> number_names(const UserTrackRecord& track) {
+  if (track.value.empty()) return {};
+  const UserValue& first = track.value.front();
+  if (std::holds_alternative<std::string>(first)) return {};
+  if (std::holds_alternative<Sample<Color>>(first)) return {"r", "g", "b", "a"};
+  std::vector<std::string> names;
+  if (std::holds_alternative<std::vector<Sample<double>>>(first)) {
+    for (std::size_t i = 0; i < longest(track); ++i) names.push_back(std::to_string(i));
+    return names;
+  }
+  const std::size_t count = numbers_at(track, 0).size();
+  if (count == 1) return {""};
+  for (std::size_t i = 0; i < count; ++i) names.emplace_back(1, "xyzw"[i]);
+  return names;
+}
+
+std::vector<double> numbers_at(const UserTrackRecord& track, std::size_t frame) {
+  return std::visit(
+      [&]<class T>(const T& value) -> std::vector<double> {
+        if constexpr (std::is_same_v<T, std::string>) {
+          return {};
+        } else if constexpr (std::is_same_v<T, bool>) {
+          return {value ? 1.0 : 0.0};
+        } else if constexpr (std::is_same_v<T, std::vector<Sample<double>>>) {
+          std::vector<double> numbers(longest(track), 0);
+          for (std::size_t i = 0; i < value.size(); ++i) numbers[i] = value[i].value;
+          return numbers;
+        } else {
+          return parts_of(value.value);
+        }
+      },
+      track.value[frame]);
+}
+
+std::vector<double> rates_at(const UserTrackRecord& track, std::size_t frame) {
+  return std::visit(
+      [&]<class T>(const T& value) -> std::vector<double> {
+        if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, bool>) {
+          return {};
+        } else if constexpr (std::is_same_v<T, std::vector<Sample<double>>>) {
+          std::vector<double> rates(longest(track), 0);
+          for (std::size_t i = 0; i < value.size(); ++i) rates[i] = value[i].rate;
+          return rates;
+        } else {
+          return parts_of(value.rate);
+        }
+      },
+      track.value[frame]);
+}
+
+}  // namespace tweenfall::recordings
