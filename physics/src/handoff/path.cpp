@@ -135,11 +135,11 @@ WorldMotion Path::anchored(const WorldMotion& authored) const noexcept {
 }
 
 bool Path::settled(double stage_time) const noexcept {
-  return settle_.over(stage_time) && (!above_ || above_->settled(stage_time));
+  return settle().over(stage_time) && (!above_ || above_->settled(stage_time));
 }
 
 Motion Path::settling(double stage_time, const Motion& anchored, Side side) const noexcept {
-  if (!above_) return settle_.apply(stage_time, anchored);
+  if (!above_) return settle().apply(stage_time, anchored);
   if (settled(stage_time)) return anchored;
   std::vector<const Path*> above;  // up to the topmost, or to one that is where it belongs
   for (const Path* path = above_.get(); path; path = path->above_.get()) {
@@ -161,11 +161,11 @@ Motion Path::settling(double stage_time, const Motion& anchored, Side side) cons
                                               })
                     : path.authored(stage_time, side);
     const Motion follows = path.anchored(scripted).motion;
-    shown = last ? handing_over::along(path.settle_, stage_time, follows, led, shown)
-                 : path.settle_.apply(stage_time, follows);
+    shown = last ? handing_over::along(path.settle(), stage_time, follows, led, shown)
+                 : path.settle().apply(stage_time, follows);
     led = follows;
   }
-  return handing_over::along(settle_, stage_time, anchored, led, shown);
+  return handing_over::along(settle(), stage_time, anchored, led, shown);
 }
 
 WorldMotion Path::world(double stage_time, Side side) const noexcept {
@@ -192,18 +192,24 @@ Path Path::rebound(std::shared_ptr<const Animation> animation) const {
   return other;
 }
 
+/// Few paths have one.
+const SettleOffset& Path::settle() const noexcept {
+  static const SettleOffset none;
+  return settle_ ? *settle_ : none;
+}
+
 void Path::settle_from(const Motion& body, const Settle& settle, const Path* above) {
   const Motion wanted = anchored(authored(since_, Side::out)).motion;
   if (!above) {
-    settle_ = SettleOffset(settle, since_, wanted, body);
+    settle_ = std::make_shared<const SettleOffset>(settle, since_, wanted, body);
     return;
   }
   if (!handing_over::is_below(animation_->nodes(), node_, above->node_))
     throw std::invalid_argument("a path can settle only as seen from that of a node above its own");
   above_ = std::make_shared<const Path>(*above);
   const Motion led = above->anchored(above->authored(since_, Side::out)).motion;
-  settle_ = SettleOffset(settle, since_, handing_over::seen_from(led, wanted),
-                         handing_over::seen_from(above->at(since_), body));
+  settle_ = std::make_shared<const SettleOffset>(settle, since_, handing_over::seen_from(led, wanted),
+                                                 handing_over::seen_from(above->at(since_), body));
 }
 
 Path Path::recovered(double time, const HandBack& settings, const Motion& body, double released_at, const Path* leader,
@@ -224,7 +230,7 @@ Path Path::recovered(double time, const HandBack& settings, const Motion& body, 
 
 Path Path::along(const Path& above) const {
   Path path = *this;
-  path.settle_from(at(since_), settle_.settle(), &above);
+  path.settle_from(at(since_), this->settle().settle(), &above);
   return path;
 }
 

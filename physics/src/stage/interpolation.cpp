@@ -138,7 +138,7 @@ WorldMotion body_world(const StageState& from, const StageState& to, std::size_t
     return body.sized(time, body.path.world(time));
   Motion motion = shown_motion(from, to, body, time);
   motion.twist = shifted(motion.twist, -(motion.pose.rotation * state.world.mass(body.id).center));
-  WorldMotion shape = body.shown;
+  WorldMotion shape = *body.shown;
   shape.linear_rate.setZero();
   shape.motion.twist = {};
   shape.motion.scale_rate.setZero();

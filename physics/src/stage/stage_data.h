@@ -67,7 +67,8 @@ struct StagedBody {
   BodyId id = {};
   Path path;
   double released_at = 0;  ///< stage time at which it last left its path
-  WorldMotion shown = {};  ///< the path at that time; the free body keeps its scale and shear
+  std::shared_ptr<const WorldMotion>
+      shown;  ///< never null: the path at that time; the free body keeps its scale and shear
   bool present = true;
   std::shared_ptr<const std::vector<SettlingNode>> below = {};  ///< in order of nodes; null for none
   Drive drive = {};                             ///< the initial drive: tracks of drives are mixed over it

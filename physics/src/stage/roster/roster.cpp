@@ -81,7 +81,7 @@ void add_body(StageState& state, NodeId node, const BodyDescription& body, const
   if (!body.fixed && settings.drive.owner() == Owner::free)
     state.world.set_motion(id, about_origin(settings.motion, body.twist, state.world.mass(id).center));
 
-  StagedBody staged{.node = node, .id = id, .path = path, .shown = start};
+  StagedBody staged{.node = node, .id = id, .path = path, .shown = std::make_shared<const WorldMotion>(start)};
   staged.released_at = state.time;
   staged.drive = settings.drive;
   staged.surface = settings.surface_velocity.linear;
@@ -290,6 +290,10 @@ StageState described_state(const StageDescription& description, std::vector<Stag
     const Node& its = (*state.nodes)[node];
     axes.push_back(rest_axes_below(its.parent == no_node ? RestAxes() : axes[its.parent], its.rest));
   }
+  // No more than there are: what a timeline keeps for good grows with them.
+  state.colors.reserve(description.nodes.size());
+  state.bodies.reserve(static_cast<std::size_t>(
+      std::ranges::count_if(description.nodes, [](const NodeDescription& node) { return node.body.has_value(); })));
   for (NodeId node = 0; node < description.nodes.size(); ++node) {
     const NodeDescription& described = description.nodes[node];
     state.colors.push_back(described.color);

@@ -204,15 +204,15 @@ bool change_owner(StageState& state, std::size_t index, const OwnerChange& chang
   if (handoff.from == Owner::keyed) {
     if (take_over.overlap == TakeOver::Overlap::ignore) pass_through(state, body, instant);
     // The motion shown up to now is the one that arrives.
-    body.shown = body.sized(instant, handing_over::arriving(body.path, instant));
+    body.shown = std::make_shared<const WorldMotion>(body.sized(instant, handing_over::arriving(body.path, instant)));
     body.released_at = instant;
-    Motion motion = rigid(body.shown.motion);
+    Motion motion = rigid(body.shown->motion);
     handoff.before = handoff.after = about_center(motion, center);
     double leaves_at = instant;
     if (const std::optional<double> clear = clear_time(state, body, motion.pose, instant, take_over, step)) {
       leaves_at = *clear;
-      body.shown = body.sized(leaves_at, body.path.world(leaves_at, Side::in));
-      motion = rigid(body.shown.motion);
+      body.shown = std::make_shared<const WorldMotion>(body.sized(leaves_at, body.path.world(leaves_at, Side::in)));
+      motion = rigid(body.shown->motion);
       handoff.after = about_center(motion, center);
     }
     const Twist twist = take_over_twist(body, motion, take_over, leaves_at, step, center);
@@ -242,7 +242,7 @@ bool change_owner(StageState& state, std::size_t index, const OwnerChange& chang
     body.below = below(path);
     if (follows) {
       // A free or driven body keeps the size with which it left its path.
-      Motion shown = body.shown.motion;
+      Motion shown = body.shown->motion;
       shown.scale_rate.setZero();
       const SizeOffset size = size_offset(hand_back.settle, begins, path.world(begins, Side::out).motion, shown);
       body.size = size.any ? std::make_shared<const SizeOffset>(size) : nullptr;

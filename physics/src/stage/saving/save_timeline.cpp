@@ -78,7 +78,7 @@ void check_bodies(const StageState& state) {
     if (!body.present) continue;
     ++here;
     require(state.world.contains(body.id), "world: a body is not in it");
-    require_unit(body.shown.motion.pose.rotation);
+    require_unit(body.shown->motion.pose.rotation);
     for (const Path* path = &body.path; path; path = path->above()) {
       const std::size_t clip = path->clock().clip;
       require(clip == ClockOverride::every_clip || clip < clips, "clock: there is no such clip");

@@ -337,7 +337,13 @@ struct PathFields {
   template <class T, class Visit>
   static void of_path(T& path, const Visit& visit) {
     visit(path.since_, path.clock_, path.anchor_);
-    of_offset(path.settle_, visit);
+    if constexpr (std::is_const_v<T>) {
+      of_offset(path.settle(), visit);
+    } else {
+      SettleOffset settle = path.settle();
+      of_offset(settle, visit);
+      path.settle_ = std::make_shared<const SettleOffset>(settle);
+    }
     bool has_above = path.above_ != nullptr;
     visit(has_above);
     if constexpr (!std::is_const_v<T>)
@@ -402,7 +408,9 @@ void each_field(T& body, const Visit& visit) {
          coming] = body;
   follows_from_others(node, id, present, drive, surface);
   PathFields::of_path(path, visit);
-  visit(released_at, shown, saturated_for, by_track, ramp, coming);
+  WorldMotion left = *shown;
+  visit(released_at, left, saturated_for, by_track, ramp, coming);
+  if constexpr (!std::is_const_v<T>) shown = std::make_shared<const WorldMotion>(left);
   auto own = size ? *size : staging::SizeOffset{};
   visit(own);
   if constexpr (!std::is_const_v<T>) size = own.any ? std::make_shared<const staging::SizeOffset>(own) : nullptr;

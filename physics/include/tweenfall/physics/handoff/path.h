@@ -59,7 +59,7 @@ class Path {
   [[nodiscard]] Path along(const Path& above) const;
 
   /// Whether it begins at `time` with a difference that settles.
-  [[nodiscard]] bool starts_settling(double time) const noexcept { return since_ == time && !settle_.over(time); }
+  [[nodiscard]] bool starts_settling(double time) const noexcept { return since_ == time && !settle().over(time); }
 
   [[nodiscard]] const Animation& animation() const noexcept { return *animation_; }
   [[nodiscard]] std::size_t node() const noexcept { return node_; }
@@ -86,6 +86,7 @@ class Path {
   friend struct saving::PathFields;
   [[nodiscard]] WorldMotion authored(double stage_time, Side side) const noexcept;
   [[nodiscard]] WorldMotion anchored(const WorldMotion& authored) const noexcept;
+  [[nodiscard]] const SettleOffset& settle() const noexcept;
   void settle_from(const Motion& body, const Settle& settle, const Path* above);
   [[nodiscard]] bool settled(double stage_time) const noexcept;
   [[nodiscard]] Motion settling(double stage_time, const Motion& anchored, Side side) const noexcept;
@@ -94,9 +95,9 @@ class Path {
   std::size_t node_;
   double since_;
   ClockOverride clock_;
-  std::optional<Pose> anchor_;         ///< rigid; absent: where it was authored
-  SettleOffset settle_;                ///< as seen from the path above, if there is one
-  std::shared_ptr<const Path> above_;  ///< null for none
+  std::optional<Pose> anchor_;                  ///< rigid; absent: where it was authored
+  std::shared_ptr<const SettleOffset> settle_;  ///< as seen from the path above, if there is one; null for none
+  std::shared_ptr<const Path> above_;           ///< null for none
 };
 
 }  // namespace tweenfall
