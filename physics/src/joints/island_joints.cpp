@@ -183,8 +183,7 @@ void IslandJoints::write(Entry& entry, const std::vector<state::Body>& bodies, c
     entry.axis_b = at.x_b();
   }
   rows.impulses = entry.impulses;
-  rows.begin({a.inverse_mass, b.inverse_mass, a.inverse_inertia, b.inverse_inertia}, h_, rate_, dt_,
-             h_ * (at.twist_b.angular - at.twist_a.angular).norm());
+  rows.begin({a.inverse_mass, b.inverse_mass, a.inverse_inertia, b.inverse_inertia}, at, h_, rate_, dt_);
   if (closing_) rows.errors_only();
   std::visit([&](const auto& kind) { write_rows(kind, *entry.joint, at, rows); }, entry.joint->settings.kind);
   entry.impulses = rows.impulses;

@@ -24,12 +24,14 @@ Direction apart(const Placement& at, const Vec3& direction) {
   return {direction, at.arm_a.cross(direction), direction, at.arm_b.cross(direction)};
 }
 
-void JointRows::begin(const Masses& masses, double h, double rate, double dt, double turn) {
+void JointRows::begin(const Masses& masses, const Placement& at, double h, double rate, double dt) {
   masses_ = masses;
+  twist_a_ = at.twist_a;
+  twist_b_ = at.twist_b;
   h_ = h;
   rate_ = rate;
   dt_ = dt;
-  far_ = reach_of_blow + 2 * turn;
+  far_ = reach_of_blow + 2 * h * (at.twist_b.angular - at.twist_a.angular).norm();
   together = count = 0;
   point = errors_only_ = false;
 }
@@ -136,7 +138,9 @@ Allowed JointRows::bound(const Direction& direction, double position, const Limi
       continue;
     }
     if (soft) {
-      draw(low ? direction : -direction, gap, 0, limits->hz, limits->zeta, std::numeric_limits<double>::infinity());
+      // It acts from the start of the sub-step after it is passed on: what that adds, a backward Euler step takes.
+      draw(low ? direction : -direction, gap, 0, limits->hz, limits->zeta, std::numeric_limits<double>::infinity(),
+           false);
       if (parts[count - 1] == Part::idle) continue;
     } else {
       Row& row = add(low ? direction : -direction);
@@ -171,32 +175,49 @@ void JointRows::drive(const Direction& direction, double position, const Motor* 
   }
 }
 
-void JointRows::draw(const Direction& direction, double error, double speed, double hz, double zeta, double most) {
+/// Newmark's method with the mean of accelerations (beta = 1/4, a quarter of the pull each before and after the
+/// sub-step) neither adds energy nor takes any, however many springs pull at a body. The faster a spring swings for the
+/// sub-step, the more of it is a backward Euler step, which damps the swing away. Source: Newmark, A Method of
+/// Computation for Structural Dynamics, Journal of the Engineering Mechanics Division 85, 1959.
+void JointRows::pull(Row& row, double error, double rate, double stiffness, double damping, double advance) const {
+  // Square of the angle by which a swing may advance in a sub-step and be kept, rad^2.
+  constexpr double followed = 0.1;
+  const double kept = advance <= followed ? 1 : followed / advance;
+  const double before = 0.25 * kept, after = 1 - 3 * before;
+  const double firmness = damping + after * h_ * stiffness;
+  row.compliance = 1 / (h_ * firmness);
+  row.wanted = row.wanted_after = stiffness / firmness * (before * h_ * rate - error);
+}
+
+void JointRows::draw(const Direction& direction, double error, double speed, double hz, double zeta, double most,
+                     bool swings) {
   if (errors_only_) return idle();
   Row& row = add(direction);
-  // Source: Catto, Soft Constraints, GDC 2011: an implicit spring on the mass that the row moves.
   const double turn = 2 * std::numbers::pi * hz * h_;
-  const double pull = turn * (2 * zeta + turn);
+  const double pull_of_turn = turn * (2 * zeta + turn);
   const double inverse_mass = held_inverse_mass();
-  if (!(pull > 0 && inverse_mass > 0)) {
+  if (!(pull_of_turn > 0 && inverse_mass > 0)) {
     --count;
     return idle();
   }
-  row.compliance = inverse_mass / pull;
-  row.wanted = row.wanted_after = speed - turn / (h_ * (2 * zeta + turn)) * error;
+  if (swings && zeta < 1) {
+    const double frequency = turn / h_;
+    pull(row, error, rate_of(direction) - speed, frequency * frequency / inverse_mass,
+         2 * zeta * frequency / inverse_mass, turn * turn);
+    row.wanted += speed;
+    row.wanted_after += speed;
+  } else {
+    // Source: Catto, Soft Constraints, GDC 2011: an implicit spring on the mass that the row moves.
+    row.compliance = inverse_mass / pull_of_turn;
+    row.wanted = row.wanted_after = speed - turn / (h_ * (2 * zeta + turn)) * error;
+  }
   row.high = most * h_;
   row.low = -row.high;
   place_last();
 }
 
-/// Newmark's method with the mean of accelerations (beta = 1/4, a quarter of the pull each before and after the
-/// sub-step) neither adds energy nor takes any, however many springs pull at a body. The faster a spring swings for the
-/// sub-step, the more of it is a backward Euler step, which damps the swing away. Source: Newmark, A Method of
-/// Computation for Structural Dynamics, Journal of the Engineering Mechanics Division 85, 1959.
 void JointRows::spring(const Direction& direction, const Placement& at, double error, double rate, double stiffness,
                        double damping) {
-  // Square of the angle by which a swing may advance in a sub-step and be kept, rad^2.
-  constexpr double followed = 0.1;
   if (!(h_ * (damping + h_ * stiffness) > 0) || errors_only_) return idle();
   Row& row = add(direction);
   // Its pull also swings the bodies across its line, and turns them about their levers.
@@ -207,13 +228,13 @@ void JointRows::spring(const Direction& direction, const Placement& at, double e
   };
   const double across = (masses_.inverse_mass_a + masses_.inverse_mass_b) / length +
                         turns(masses_.inverse_inertia_a, at.arm_a) + turns(masses_.inverse_inertia_b, at.arm_b);
-  const double advance =
-      h_ * h_ * stiffness * (coupling(direction, direction) + (error == 0 ? 0 : std::abs(error) * across));
-  const double kept = advance <= followed ? 1 : followed / advance;
-  const double before = 0.25 * kept, after = 1 - 3 * before;
-  const double firmness = damping + after * h_ * stiffness;
-  row.compliance = 1 / (h_ * firmness);
-  row.wanted = row.wanted_after = stiffness / firmness * (before * h_ * rate - error);
+  pull(row, error, rate, stiffness, damping,
+       h_ * h_ * stiffness * (coupling(direction, direction) + (error == 0 ? 0 : std::abs(error) * across)));
+}
+
+double JointRows::rate_of(const Direction& direction) const {
+  return direction.linear_b.dot(twist_b_.linear) + direction.turn_b.dot(twist_b_.angular) -
+         direction.linear_a.dot(twist_a_.linear) - direction.turn_a.dot(twist_a_.angular);
 }
 
 double JointRows::bend_of(double length, const Vec3& side, const Vec3& rate, const Vec3& bend) const {

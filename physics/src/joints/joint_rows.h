@@ -77,8 +77,7 @@ class JointRows {
   /// @param h     length of the sub-step, s
   /// @param rate  share of an error that is corrected, 1/s
   /// @param dt    length of the step, s
-  /// @param turn  how far the bodies turn relative to each other in the sub-step at their present spins, rad
-  void begin(const Masses& masses, double h, double rate, double dt, double turn);
+  void begin(const Masses& masses, const Placement& at, double h, double rate, double dt);
   /// For errors only: leaves out rows that drive, and bounds that are not passed.
   void errors_only();
 
@@ -99,7 +98,9 @@ class JointRows {
   /// One row. It never asks for a speed that bounds do not allow: rows that push against each other without end would
   /// need too many rounds of changing places.
   void drive(const Direction& direction, double position, const Motor* motor, const Allowed& allowed = {});
-  void draw(const Direction& direction, double error, double speed, double hz, double zeta, double most);
+  /// @param swings  whether a spring damped less than critically keeps its swing
+  void draw(const Direction& direction, double error, double speed, double hz, double zeta, double most,
+            bool swings = true);
   /// @param rate  of the error, with which the sub-step begins
   void spring(const Direction& direction, const Placement& at, double error, double rate, double stiffness,
               double damping);
@@ -131,9 +132,13 @@ class JointRows {
   [[nodiscard]] double held_inverse_mass() const;
 
   void draw_near(Row& row, double error, bool angular);
+  /// @param advance  square of the angle by which it swings in the sub-step, rad^2
+  void pull(Row& row, double error, double rate, double stiffness, double damping, double advance) const;
+  [[nodiscard]] double rate_of(const Direction& direction) const;
   [[nodiscard]] Direction direction_of(std::size_t row) const;
 
   Masses masses_;
+  Twist twist_a_, twist_b_;
   Vec3 arm_a_{0, 0, 0}, arm_b_{0, 0, 0};  ///< of the point
   double h_ = 0, rate_ = 0, dt_ = 0, far_ = 0;
   bool errors_only_ = false;

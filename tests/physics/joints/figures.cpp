@@ -128,7 +128,7 @@ TEST_CASE("figures are solved to the same bits with every instruction set") {
       at.arm_b = 0.3 * vector();
       at.center_b = at.arm_a - at.arm_b + 1e-3 * vector();
       JointRows rows;
-      rows.begin({1, 1, Mat3::Identity(), Mat3::Identity()}, 1.0 / 180, 50, 1.0 / 60, 0);
+      rows.begin({1, 1, Mat3::Identity(), Mat3::Identity()}, {}, 1.0 / 180, 50, 1.0 / 60);
       rows.hold_point(at);
       const Limits limits{-0.1, 0.1};
       const double angle = random.between(-0.25, 0.25);
