@@ -2,6 +2,8 @@
 
 #include <tweenfall/curves/rotation.h>
 
+#include <limits>
+
 #include "forces/drive_law.h"
 #include "forces/flight.h"
 #include "forces/kinds/kinds.h"
@@ -36,7 +38,13 @@ constexpr std::size_t worth_a_part = 256;
 /// Above this a spring would ring through the step, and above 4 it would grow.
 constexpr double most_springiness = 1;
 
-void add_springiness(const std::vector<Body>& bodies, const Spring& spring, double dt, std::vector<Load>& loads) {
+/// Torques are not split between both ends of a step, so that a spring on a lever would gain energy, however soft.
+bool on_lever(const Body& body, const Vec3& anchor) {
+  return moves(body) && anchor != body.mass().center;
+}
+
+void add_springiness(const std::vector<Body>& bodies, const Spring& spring, const WorldSettings& settings, double dt,
+                     std::vector<Load>& loads) {
   const Body* a = find_body(bodies, spring.a);
   const Body* b = find_body(bodies, spring.b);
   const auto inverse_mass = [](const Body& body, const Vec3& anchor) {
@@ -45,8 +53,11 @@ void add_springiness(const std::vector<Body>& bodies, const Spring& spring, doub
   };
   const double stiffness = spring.stiffness * dt * dt + spring.damping * dt;
   const double felt = inverse_mass(*a, spring.anchor_a) + (b ? inverse_mass(*b, spring.anchor_b) : 0);
-  if (moves(*a)) loads[spring.a.index].springiness += stiffness * felt;
-  if (b && moves(*b)) loads[spring.b.index].springiness += stiffness * felt;
+  const bool turns = settings.integrator == Integrator::exact_quadratic && settings.plane == WorldPlane::none &&
+                     (on_lever(*a, spring.anchor_a) || (b && on_lever(*b, spring.anchor_b)));
+  const double its = turns ? std::numeric_limits<double>::infinity() : stiffness * felt;
+  if (moves(*a)) loads[spring.a.index].springiness += its;
+  if (b && moves(*b)) loads[spring.b.index].springiness += its;
 }
 
 /// The start of a step, or its end, with bodies where they would be if loads did not change during the step.
@@ -157,7 +168,8 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
   };
   if (!implicit(settings.integrator))
     for (const NumberedForce& entry : forces)
-      if (const auto spring = spring_at(entry, time + 0.5 * dt, Side::out)) add_springiness(bodies, *spring, dt, loads);
+      if (const auto spring = spring_at(entry, time + 0.5 * dt, Side::out))
+        add_springiness(bodies, *spring, settings, dt, loads);
   for (const NumberedForce& entry : forces) {
     const std::optional<Spring> spring = spring_at(entry, time + 0.5 * dt, Side::out);
     if (!spring || !too_stiff(*spring, bodies, loads)) continue;

@@ -11,6 +11,7 @@
 #include "islands/free_islands.h"
 #include "islands/island_contents.h"
 #include "islands/shifted_apart.h"
+#include "islands/sprung/sprung_flight.h"
 #include "joints/joint_link.h"
 #include "pairs/broad_phase.h"
 #include "queries/scene.h"
@@ -59,6 +60,7 @@ struct Solvers {
   blocks::BlockSolver
       alone;  ///< for islands solved by themselves: after those of others its room would be cleared anew
   std::vector<Batch> batches;  ///< for `many`, by effort
+  sprung::SprungFlight sprung;
   strategies::IslandByStrategies strategies;
   double complementarity = 0;  ///< of the islands of this step, m/s
 

@@ -225,6 +225,10 @@ void World::Implementation::solve_islands(double dt) {
       by.complementarity = std::max(by.complementarity, solve_by_strategies(contents, dt, by.strategies));
       return;
     }
+    if (by.sprung.takes(contents, bodies, settings.integrator, dt)) {
+      by.sprung.solve(bodies, loads, dt, moved);
+      return;
+    }
     if (const int pieces = pieces_of(contents, dt); pieces > 1) {
       solve_in_pieces(contents, pieces, dt, by.few);
       return;
