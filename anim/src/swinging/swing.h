@@ -29,6 +29,7 @@ struct ClockSight {
 template <class State>
 class Swing : public Changing {
  public:
+  static constexpr double blur = 1e-3;         // s; over which jumps may be too many to count
   static constexpr std::size_t own_rooms = 5;  // the pose below at another time, two for scratch, and both sides
 
   /// @param step  the longest of its grids, s
@@ -141,12 +142,24 @@ class Swing : public Changing {
     const double known = std::max(from, std::min(mark.searched, sure));
     if (mark.jump <= known) return mark.jump <= until ? mark.jump : std::numeric_limits<double>::infinity();
     if (until <= known) return std::numeric_limits<double>::infinity();
-    const double found = first_jump_of_base(script, moment.start, {from, known, until});
+    double found = first_jump_of_base(script, moment.start, {from, known, until});
+    if (found < from + blur && is_dense(script, moment.start, from, found))
+      found = until > from + blur ? first_jump_of_base(script, moment.start, {from, from + blur, until})
+                                  : std::numeric_limits<double>::infinity();
     if (until > sure) return found;
     // A time that is rounded may be on either side of the end of a search, so the next one begins a little before.
     mark.searched = std::max(known, std::min(found, until - 1e-9 * (1 + until)));
     mark.jump = found;
     return found;
+  }
+  /// Whether so many jumps follow an instant that no spring could tell them apart, nor wait until each is answered: as
+  /// those of a clip that lasts a microsecond. Then only one in each such time counts.
+  [[nodiscard]] bool is_dense(const Script& script, double start, double from, double first) const noexcept {
+    constexpr int most = 32;
+    double jump = first;
+    for (int i = 0; i < most && jump <= from + blur; ++i)
+      jump = first_jump_of_base(script, start, {from, jump, from + blur});
+    return jump <= from + blur;
   }
   [[nodiscard]] double first_jump_of_base(const Script& script, double start, const Search& search) const noexcept {
     double first = std::numeric_limits<double>::infinity();
