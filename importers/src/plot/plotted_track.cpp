@@ -294,10 +294,11 @@ void add_mixed(PlottedTrack& plotted, const StageDescription& stage, const Recor
   if (stage.graphs.empty() && stage.plays.size() < 2) return;
   const auto found = std::ranges::find(recording.user_tracks, plotted.track->name(), &UserTrackRecord::name);
   if (found == recording.user_tracks.end() || recordings::number_names(*found).size() != plotted.names.size()) return;
+  const std::size_t width = plotted.names.size();
   std::vector<TrackPoint> points;
   for (std::size_t frame = 0; frame < found->value.size(); ++frame)
-    points.push_back(
-        {recording.times[frame], recordings::numbers_at(*found, frame), recordings::rates_at(*found, frame)});
+    points.push_back({recording.times[frame], recordings::numbers_at(*found, frame, width),
+                      recordings::rates_at(*found, frame, width)});
   if (!points.empty()) plotted.simulated.push_back(std::move(points));
 }
 

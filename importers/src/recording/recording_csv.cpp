@@ -110,7 +110,8 @@ class UserColumns {
       else if (column.is_text)
         (out += ',') += field(std::get<std::string>(column.track->value[frame]));
       else
-        append_columns(out, numbers_at(*column.track, frame), static_cast<int>(column.parts.size()));
+        append_columns(out, numbers_at(*column.track, frame, column.parts.size()),
+                       static_cast<int>(column.parts.size()));
     }
   }
   /// In rows that are not of nodes.

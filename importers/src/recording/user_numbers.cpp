@@ -35,16 +35,17 @@ std::vector<std::string> number_names(const UserTrackRecord& track) {
   if (std::holds_alternative<Sample<Color>>(first)) return {"r", "g", "b", "a"};
   std::vector<std::string> names;
   if (std::holds_alternative<std::vector<Sample<double>>>(first)) {
-    for (std::size_t i = 0; i < longest(track); ++i) names.push_back(std::to_string(i));
+    const std::size_t count = longest(track);
+    for (std::size_t i = 0; i < count; ++i) names.push_back(std::to_string(i));
     return names;
   }
-  const std::size_t count = numbers_at(track, 0).size();
+  const std::size_t count = numbers_at(track, 0, 0).size();
   if (count == 1) return {""};
   for (std::size_t i = 0; i < count; ++i) names.emplace_back(1, "xyzw"[i]);
   return names;
 }
 
-std::vector<double> numbers_at(const UserTrackRecord& track, std::size_t frame) {
+std::vector<double> numbers_at(const UserTrackRecord& track, std::size_t frame, std::size_t width) {
   return std::visit(
       [&]<class T>(const T& value) -> std::vector<double> {
         if constexpr (std::is_same_v<T, std::string>) {
@@ -52,7 +53,7 @@ std::vector<double> numbers_at(const UserTrackRecord& track, std::size_t frame) 
         } else if constexpr (std::is_same_v<T, bool>) {
           return {value ? 1.0 : 0.0};
         } else if constexpr (std::is_same_v<T, std::vector<Sample<double>>>) {
-          std::vector<double> numbers(longest(track), 0);
+          std::vector<double> numbers(std::max(width, value.size()), 0);
           for (std::size_t i = 0; i < value.size(); ++i) numbers[i] = value[i].value;
           return numbers;
         } else {
@@ -62,13 +63,13 @@ std::vector<double> numbers_at(const UserTrackRecord& track, std::size_t frame) 
       track.value[frame]);
 }
 
-std::vector<double> rates_at(const UserTrackRecord& track, std::size_t frame) {
+std::vector<double> rates_at(const UserTrackRecord& track, std::size_t frame, std::size_t width) {
   return std::visit(
       [&]<class T>(const T& value) -> std::vector<double> {
         if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, bool>) {
           return {};
         } else if constexpr (std::is_same_v<T, std::vector<Sample<double>>>) {
-          std::vector<double> rates(longest(track), 0);
+          std::vector<double> rates(std::max(width, value.size()), 0);
           for (std::size_t i = 0; i < value.size(); ++i) rates[i] = value[i].rate;
           return rates;
         } else {

@@ -13,9 +13,10 @@ namespace tweenfall::recordings {
 /// "0", "1", ... for a list. None for texts.
 [[nodiscard]] std::vector<std::string> number_names(const UserTrackRecord& track);
 
-/// The numbers at a frame, in that order; switches as 0 or 1. Short lists are filled up with 0.
-[[nodiscard]] std::vector<double> numbers_at(const UserTrackRecord& track, std::size_t frame);
+/// The numbers at a frame, in that order; switches as 0 or 1.
+/// @param width  how many names the track has: shorter lists are filled up with 0
+[[nodiscard]] std::vector<double> numbers_at(const UserTrackRecord& track, std::size_t frame, std::size_t width);
 /// Their rates, per second; of a rotation its angular velocity, rad/s. None for switches and texts.
-[[nodiscard]] std::vector<double> rates_at(const UserTrackRecord& track, std::size_t frame);
+[[nodiscard]] std::vector<double> rates_at(const UserTrackRecord& track, std::size_t frame, std::size_t width);
 
 }  // namespace tweenfall::recordings

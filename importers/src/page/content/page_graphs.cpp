@@ -109,7 +109,7 @@ GraphRecord as_graph(const Recording& recording) {
     for (const std::string& name : names)
       graph.parameters.emplace_back().name = track.name + (name.empty() ? "" : "." + name);
     for (std::size_t frame = 0; frame < track.value.size(); ++frame) {
-      const std::vector<double> numbers = recordings::numbers_at(track, frame);
+      const std::vector<double> numbers = recordings::numbers_at(track, frame, names.size());
       for (std::size_t i = 0; i < names.size(); ++i) graph.parameters[first + i].value.push_back(numbers[i]);
     }
   }
