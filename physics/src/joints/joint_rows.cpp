@@ -201,9 +201,12 @@ void JointRows::draw(const Direction& direction, double error, double speed, dou
     return idle();
   }
   if (swings && zeta < 1) {
-    const double frequency = turn / h_;
+    // The rate is that of before the points of its joint led a body on a lever back onto its arc: what that adds, up to
+    // half of this share takes.
+    constexpr double least_damping = 0.004;
+    const double frequency = turn / h_, damped = std::max(zeta, least_damping * turn * turn);
     pull(row, error, rate_of(direction) - speed, frequency * frequency / inverse_mass,
-         2 * zeta * frequency / inverse_mass, turn * turn);
+         2 * damped * frequency / inverse_mass, turn * turn);
     row.wanted += speed;
     row.wanted_after += speed;
   } else {

@@ -122,8 +122,9 @@ struct ThreadPool::Implementation {
         else
           std::this_thread::yield();
       }
-      if (over.load()) return;
+      // In this order: a ring that is heard here may be the last one.
       heard = bell.load();
+      if (over.load()) return;
       take_parts(thread);
     }
   }

@@ -6,12 +6,12 @@ using test::near;
 
 namespace {
 
-/// Two bodies, or one and the world, on an undamped spring that pulls at levers, where nothing else acts.
+/// Two bodies, or one and the world, on a spring that may pull at levers.
 struct Sprung {
   World world{{.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()}};
   BodyId a, b;
-  Vec3 arm_a, arm_b;
-  double length = 0, stiffness = 0;
+  Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};
+  double length = 0, stiffness = 0, damping = 0;
 
   [[nodiscard]] Vec3 place(const BodyId& body, const Vec3& arm) const {
     if (body == BodyId{}) return arm;
@@ -39,10 +39,15 @@ struct Sprung {
                        .b = b,
                        .frame_a = {.position = arm_a},
                        .frame_b = {.position = arm_b},
-                       .kind = SpringJoint{.length = length, .stiffness = stiffness}});
+                       .kind = SpringJoint{.length = length, .stiffness = stiffness, .damping = damping}});
     else
-      world.add_force(
-          Spring{.a = b, .b = a, .anchor_a = arm_b, .anchor_b = arm_a, .rest_length = length, .stiffness = stiffness});
+      world.add_force(Spring{.a = b,
+                             .b = a,
+                             .anchor_a = arm_b,
+                             .anchor_b = arm_a,
+                             .rest_length = length,
+                             .stiffness = stiffness,
+                             .damping = damping});
   }
 };
 
@@ -111,4 +116,63 @@ TEST_CASE("a ball on a lever swings by the square root of k (1/m + r^2/I), and k
         CHECK(away < 2e-4);
         CHECK(near(sprung.energy(), before, 0.02 * before));
       }
+}
+
+TEST_CASE("a spring as short as rounding holds a weight where one of no length does") {
+  for (const bool joint : {true, false})
+    for (const double length : {0.0, 1e-17, 1e-9, 1e-7, 1e-4})
+      for (const double dt : {1.0 / 60, 0.25}) {
+        CAPTURE(joint);
+        CAPTURE(length);
+        CAPTURE(dt);
+        Sprung sprung;
+        sprung.world = World({.gravity = Vec3(0, -10, 0), .sleep_after = std::numeric_limits<double>::infinity()});
+        BodySettings weight{.shape = {Box{{0.1, 0.1, 0.1}}}, .mass = 1.0};
+        weight.motion.pose.position.y() = -0.1 - length;  // m g / k
+        sprung.b = sprung.world.add(weight);
+        sprung.stiffness = 100;
+        sprung.length = length;
+        sprung.damping = 2;
+        sprung.tie(joint);
+        for (double t = 0; t < 5; t += dt) sprung.world.step(dt);
+        CHECK((sprung.place(sprung.b, Vec3(0, 0, 0)) - Vec3(0, -0.1 - length, 0)).norm() < 1e-6);
+      }
+}
+
+TEST_CASE("what hangs on a light hook between two stiff springs hangs where their stretches say") {
+  for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240})
+    for (const auto& [hook, weight, stiffness] :
+         {std::tuple(0.01, 100.0, 1e7), std::tuple(0.1, 1000.0, 1e7), std::tuple(0.001, 1000.0, 1e6)}) {
+      CAPTURE(dt);
+      CAPTURE(hook);
+      World world({.gravity = Vec3(0, -10, 0), .sleep_after = std::numeric_limits<double>::infinity()});
+      const double above = (hook + weight) * 10 / stiffness, below = weight * 10 / stiffness;
+      BodySettings body{.shape = {Sphere{0.01}}, .mass = hook};
+      body.motion.pose.position.y() = -1 - above;
+      const BodyId upper = world.add(body);
+      body = {.shape = {Sphere{0.1}}, .mass = weight};
+      body.motion.pose.position.y() = -2 - above - below;
+      const BodyId lower = world.add(body);
+      world.add_joint({.b = upper, .kind = SpringJoint{.length = 1, .stiffness = stiffness, .damping = 100}});
+      world.add_joint(
+          {.a = upper, .b = lower, .kind = SpringJoint{.length = 1, .stiffness = stiffness, .damping = 100}});
+      for (double t = 0; t < 2; t += dt) world.step(dt);
+      const double stretched = -world.motion(lower).pose.position.y() - 2;
+      CHECK(near(stretched, above + below, 0.02 * (above + below)));
+    }
+}
+
+TEST_CASE("a body that a damper of almost nothing holds turns as one that flies freely") {
+  for (const double spin : {30.0, 60.0}) {
+    CAPTURE(spin);
+    World world({.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()});
+    BodySettings box{.shape = {Box{{0.1, 0.2, 0.4}}}, .mass = 1.0};
+    box.motion.twist.angular = spin * Vec3(0.3, 0.9, 0.2).normalized();
+    const BodyId held = world.add(box);
+    box.motion.pose.position.x() = 10;
+    const BodyId flying = world.add(box);
+    world.add_joint({.b = held, .kind = SpringJoint{.stiffness = 0, .damping = 1e-12}});
+    for (int i = 0; i < 60; ++i) world.step(1.0 / 60);
+    CHECK(world.motion(held).pose.rotation.angularDistance(world.motion(flying).pose.rotation) < 5e-3);
+  }
 }

@@ -55,3 +55,27 @@ TEST_CASE("motors and suspensions damped less than critically swing as the close
         check_swing(limb, 0, 0.2, 0, hz, zeta, dt);
       }
 }
+
+TEST_CASE("an undamped motor of a bar on a lever gains nothing in a hundred seconds") {
+  for (const auto& [hz, dt] : {std::pair(20.0, 1.0 / 240), std::pair(7.0, 1.0 / 60), std::pair(5.0, 1.0 / 20)}) {
+    CAPTURE(hz);
+    World world({.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()});
+    BodySettings bar{.shape = {Box{{0.25, 0.05, 0.05}}}};
+    bar.motion.pose.position.x() = 0.25;
+    const BodyId body = world.add(bar);
+    JointSettings hinge{.b = body, .kind = HingeJoint{.motor = Motor{.position = 0.5, .hz = hz, .zeta = 0}}};
+    hinge.frame_b.position.x() = -0.25;
+    hinge.frame_a.rotation = hinge.frame_b.rotation = exp_map(Vec3(0, -test::pi / 2, 0));
+    const JointId joint = world.add_joint(hinge);
+    double first = 0, last = 0;
+    const int steps = static_cast<int>(std::lround(100 / dt));
+    for (int i = 0; i < steps; ++i) {
+      world.step(dt);
+      const JointReading at = world.reading(joint);
+      const double swing = std::hypot(at.position[0] - 0.5, at.rate[0] / (2 * test::pi * hz));
+      if (i * dt < 2) first = std::max(first, swing);
+      if (i * dt > 98) last = std::max(last, swing);
+    }
+    CHECK(last <= 1.001 * first);
+  }
+}

@@ -19,7 +19,7 @@ constexpr double followed_swing = 0.2, followed_turn = 0.06;
 constexpr int fewest = 4, most = 1024;
 /// Bodies and springs times sub-steps that one island may take, unless it is a single pair.
 constexpr double most_work = 4096;
-constexpr std::size_t of_a_pair = 4, most_springs = 128;
+constexpr std::size_t most_springs = 128;
 /// A spring swings no faster across its line than if it were as long as this part of its length at rest: a body that
 /// passes its other end is there for an instant only.
 constexpr double shortest = 0.1;
@@ -47,7 +47,10 @@ bool SprungFlight::takes(const islands::IslandContents& island, const std::vecto
       if (end != step::SpringRow::world && bodies[end].drive.owner() == Owner::driven) return false;
   gather(island, bodies, dt);
   choose_pace(dt);
-  return followed_ || pulls_.size() + bodies_.size() - 1 <= of_a_pair;
+  if (followed_) return true;
+  // What hangs on a spring that is made softer would sink: nothing does if all join the same two ends.
+  return std::all_of(pulls_.begin(), pulls_.end(),
+                     [&](const Pull& pull) { return pull.a == pulls_.front().a && pull.b == pulls_.front().b; });
 }
 
 std::uint32_t SprungFlight::place_of(std::uint32_t index, const std::vector<Body>& bodies, double dt) {
@@ -141,10 +144,15 @@ void SprungFlight::choose_pace(double dt) {
       const double moment = body.inverse_moments.maxCoeff(), reach = arm.norm();
       pull.straight += body.inverse_mass + moment * reach * reach;
       pull.swinging += moment * reach;
-      if (pull.length > 0) pull.swinging += (body.inverse_mass + moment * reach * reach) / least;
+      // Stretched by s to the length r it swings across with k s / r, which is never more than k however short it was.
+      if (pull.length > 0)
+        pull.swinging +=
+            (body.inverse_mass + moment * reach * reach) / std::max(least, pull.stretch / (1 / shortest - 1));
     };
     swing(a, pull.arm_a);
     swing(b, pull.arm_b);
+    for (const SprungBody* body : {&a, &b})
+      if (body->movable && !body->spherical) turning = std::max(turning, body->spin().norm());
     if (!(pull.straight > 0 && pull.stiffness > 0)) continue;
     const double frequency = pull.stiffness * (pull.straight + pull.stretch * pull.swinging);
     bodies_[pull.a].stiffness += a.movable ? frequency : 0;
