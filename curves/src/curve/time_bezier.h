@@ -28,6 +28,7 @@ inline constexpr double least_time_slope = 1e-6;
 
 /// At an end where a handle has no length, the value rests over the position on the handles just as time does, and
 /// still has a rate over time: the limit of the one over the other, by L'Hopital's rule. CSS's ease-in arrives so.
+/// Where time rests longer than the value does, that limit is infinite: the rate is that of where time begins to count.
 /// @param p  with derivatives by the position s, here and below; those by time, over the whole span, once this is done
 /// @param c  its coefficients
 /// @return   whether both rest; else nothing is changed
@@ -44,10 +45,18 @@ bool limit_where_time_rests(const Warp& warp, double s, const V* c, int degree, 
   const double slope = (3 * x[3] * s + 2 * x[2]) * s + x[1], second = 6 * x[3] * s + 2 * x[2], third = 6 * x[3];
   if (!(slope < least_time_slope)) return false;
   constexpr double some = 4 * least_time_slope;  // so near to the end both are as good as at rest
-  if (std::abs(second) > some && size(p.first) * std::abs(second) <= some * size(p.second)) {
+  constexpr double nearly = 0.1, rounding = 1e-9;
+  const bool rests_on = degree == 3 && third != 0 && std::abs(second * second - 2 * third * slope) <= some;
+  if (!rests_on && std::abs(second) > some && size(p.first) * std::abs(second) <= some * size(p.second) &&
+      size(V(p.first * second - p.second * slope)) <=
+          (nearly * size(p.first) + rounding * size(p.second)) * std::abs(second)) {
     p.first = p.second * (warp.width / second);
-  } else if (degree == 3 && std::abs(second) <= some && size(p.second) <= some * size(c[3]) && third != 0) {
+  } else if (rests_on && std::abs(second) <= some && size(p.first) <= some * size(c[3]) &&
+             size(p.second) <= some * size(c[3])) {
     p.first = c[3] * (6 * warp.width / third);
+  } else if (rests_on && (s < nearly || s > 1 - nearly) && size(p.first) <= nearly * size(p.second)) {
+    const double begins = std::sqrt(2 * least_time_slope / std::abs(third)) / least_time_slope;
+    p.first = p.second * ((s < nearly ? begins : -begins) * warp.width);
   } else {
     return false;
   }

@@ -58,7 +58,9 @@ double through_handles(const LongPolynomial& y, const LongPolynomial& x, double 
   // At rest together with time: as in `limit_where_time_rests`.
   const double rest = 4 * spans::least_time_slope, bend = second.at(s);
   if (order == 1 && slope == spans::least_time_slope && std::abs(bend) > rest &&
-      std::abs(n.at(s) * bend) <= rest * std::abs(n.derived().at(s)))
+      std::abs(n.at(s) * bend) <= rest * std::abs(n.derived().at(s)) &&
+      std::abs(n.at(s) * bend - n.derived().at(s) * first.at(s)) <=
+          0.1 * std::abs(n.at(s) * bend) + 1e-9 * std::abs(n.derived().at(s) * bend))
     return n.derived().at(s) / bend;
   double divisor = slope;
   for (int k = 1; k < order; ++k) divisor *= slope * slope;

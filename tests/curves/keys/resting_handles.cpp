@@ -48,3 +48,22 @@ TEST_CASE("keyed numbers, vectors, colors and rotations have the rate of the lim
   const Curve<double> part = trimmed(number, 1.2, 1 + 2 * seconds);
   CHECK(part.sample(1 + 2 * seconds, Side::in).rate == doctest::Approx(-3 * steepest).epsilon(1e-12));
 }
+
+TEST_CASE("where time rests and the value does not, a curve that rises has a rate that is large and above 0") {
+  for (const auto& [y1, y2] : {std::pair(0.0, 1.0), std::pair(0.2, 0.8), std::pair(-0.5, 1.5), std::pair(0.4, 0.6)}) {
+    CAPTURE(y1);
+    const Ease steep = Ease::bezier(1, y1, 0, y2);  // vertical in the middle
+    CHECK(steep.progress(0.5).rate > 1e5);
+    const auto curve = keyed_curve<double>({{0, 0, steep}, {2, 1}});
+    CHECK(curve.sample(1).rate > 5e4);
+  }
+  // Material's deceleration: y ~ (27 t^2)^(1/3) at its start.
+  const Ease slowing = Ease::bezier(0, 0, 0, 1), hastening = Ease::bezier(1, 0, 1, 1);
+  for (const double t : {0.0, 1e-15, 1e-12, 1e-10}) {
+    CAPTURE(t);
+    CHECK(slowing.progress(t).rate > 1000);
+    CHECK(hastening.progress(1 - t, Side::in).rate > 1000);
+  }
+  CHECK(slowing.progress(1e-6).rate == doctest::Approx(2e2).epsilon(0.05));
+  CHECK(slowing.progress(0).rate >= slowing.progress(1e-9).rate);
+}

@@ -70,7 +70,9 @@ std::string graph_json(const GraphRecord& graph, const std::vector<std::size_t>&
   return out + "]}";
 }
 
-/// A track of texts as the states of a machine, one after the other.
+constexpr std::size_t most_texts = 64;  // more are no states that anyone could tell apart
+
+/// A track of texts as the states of a machine, one after the other; without any if they are too many.
 GraphRecord::Machine words_of(const UserTrackRecord& track, const std::vector<double>& times) {
   GraphRecord::Machine machine;
   machine.name = track.name;
@@ -79,6 +81,7 @@ GraphRecord::Machine words_of(const UserTrackRecord& track, const std::vector<do
     const std::string& text = std::get<std::string>(track.value[frame]);
     const auto found = std::ranges::find(machine.states, text);
     said.push_back(static_cast<std::size_t>(found - machine.states.begin()));
+    if (found == machine.states.end() && machine.states.size() == most_texts) return {};
     if (found == machine.states.end()) machine.states.push_back(text);
     if (frame > 0 && said[frame] == said[frame - 1]) continue;
     GraphRecord::Passage& passage = machine.passages.emplace_back();
@@ -94,14 +97,13 @@ GraphRecord::Machine words_of(const UserTrackRecord& track, const std::vector<do
 
 /// User tracks in the form of a graph: numbers as parameters, texts as machines.
 GraphRecord as_graph(const Recording& recording) {
-  constexpr std::size_t most_texts = 64;  // more are no states that anyone could tell apart
   GraphRecord graph;
   graph.name = "user tracks";
   for (const UserTrackRecord& track : recording.user_tracks) {
     if (track.value.empty()) continue;
     if (std::holds_alternative<std::string>(track.value.front())) {
       GraphRecord::Machine words = words_of(track, recording.times);
-      if (words.states.size() <= most_texts) graph.machines.push_back(std::move(words));
+      if (!words.states.empty()) graph.machines.push_back(std::move(words));
       continue;
     }
     const std::vector<std::string> names = recordings::number_names(track);
