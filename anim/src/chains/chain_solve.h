@@ -13,9 +13,10 @@ void reach_freely(const JointChain& chain, const Arrow& target, ChainShape& shap
 void reach_within_limits(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept;
 
 /// The same from the pose of the chain before, in `shape`, on the branch on which it is: the joints go back toward
-/// `home` by `share`, and from there follow the target.
-void follow_within_limits(const JointChain& chain, const Arrow& target, const ChainShape& home, const Dual& share,
-                          ChainShape& shape) noexcept;
+/// `home` by `share`, and from there follow the target. @param searches  elsewhere if the chain may leap and misses it
+/// @return  whether the target is reached
+bool follow_within_limits(const JointChain& chain, const Arrow& target, const ChainShape& home, const Dual& share,
+                          bool searches, ChainShape& shape) noexcept;
 
 /// Turns all joints a little, more for a target farther from the end: a chain that lies straight on the line to its
 /// target could not start bending otherwise.

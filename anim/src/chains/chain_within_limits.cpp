@@ -130,7 +130,7 @@ class LimitedSolve {
  public:
   LimitedSolve(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept;
   void run() noexcept;
-  void go_on(const ChainShape& home, const Dual& share) noexcept;
+  bool go_on(const ChainShape& home, const Dual& share, bool searches) noexcept;
 
  private:
   void move_off() noexcept;
@@ -295,7 +295,7 @@ void LimitedSolve::run() noexcept {
   if (chain_.leaps() && !arrived()) search();
 }
 
-void LimitedSolve::go_on(const ChainShape& home, const Dual& share) noexcept {
+bool LimitedSolve::go_on(const ChainShape& home, const Dual& share, bool searches) noexcept {
   for (std::size_t i = 0; i < count_; ++i) {
     const Turning& turn = shape_.turn(i);
     const Arrow way = log_turn(home.turn(i) * inverse(turn));
@@ -304,7 +304,8 @@ void LimitedSolve::go_on(const ChainShape& home, const Dual& share) noexcept {
   shape_.place();
   bend(target_, shape_);
   track(true);
-  if (chain_.leaps() && !arrived()) search();
+  if (chain_.leaps() && searches && !arrived()) search();
+  return arrived();
 }
 
 void LimitedSolve::search() noexcept {
@@ -345,9 +346,9 @@ void reach_within_limits(const JointChain& chain, const Arrow& target, ChainShap
   LimitedSolve(chain, target, shape).run();
 }
 
-void follow_within_limits(const JointChain& chain, const Arrow& target, const ChainShape& home, const Dual& share,
-                          ChainShape& shape) noexcept {
-  LimitedSolve(chain, target, shape).go_on(home, share);
+bool follow_within_limits(const JointChain& chain, const Arrow& target, const ChainShape& home, const Dual& share,
+                          bool searches, ChainShape& shape) noexcept {
+  return LimitedSolve(chain, target, shape).go_on(home, share, searches);
 }
 
 }  // namespace tweenfall::chains

@@ -185,6 +185,12 @@ bool changes(const Curve<double>& curve, double time) noexcept {
   return !waits && !(time >= curve.end() && curve.after() == Outside::hold);
 }
 
+double round_of(const Curve<double>& curve) noexcept {
+  const bool comes_around = curve.after() != Outside::hold && curve.after() != Outside::linear;
+  return comes_around && curve.end() > curve.start() ? curve.end() - curve.start()
+                                                     : std::numeric_limits<double>::infinity();
+}
+
 double first_change(const Curve<double>& curve, double after) noexcept {
   const bool waits = after < curve.start() && curve.before() == Outside::hold && curve.end() > curve.start();
   return waits ? curve.start() : std::numeric_limits<double>::infinity();

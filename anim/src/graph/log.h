@@ -234,6 +234,8 @@ void forget_after(Log& log, const GraphDescription& description, double time);
 /// Whether a curve may change its value from a time on, before `first_change`: not before the first key that it waits
 /// for, nor after the last one that it holds.
 [[nodiscard]] bool changes(const Curve<double>& curve, double time) noexcept;
+/// After how many seconds a curve comes around, again and again; infinity where it does not.
+[[nodiscard]] double round_of(const Curve<double>& curve) noexcept;
 /// When a curve that waits for its first key after a time begins to change; infinity for none.
 [[nodiscard]] double first_change(const Curve<double>& curve, double after) noexcept;
 

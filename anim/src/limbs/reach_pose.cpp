@@ -5,6 +5,9 @@
 #include "operations/account.h"
 #include "swinging/swing.h"
 
+#include <algorithm>
+#include <optional>
+
 namespace tweenfall::graphs {
 
 namespace {
@@ -37,12 +40,14 @@ class FollowingChain : public Swing<ReachState> {
   void rest(ReachState& state) const noexcept override {
     state.step = -1;
     state.memory.turns.assign(chain_.joints().size(), Quat(1, 0, 0, 0));
+    state.memory.since_search = std::numeric_limits<double>::infinity();
   }
   void show(ReachState& state, double time, const ClockSight& sight, const PoseAt& pose_at,
             const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) const noexcept override {
     go_to(state, time, sight, pose_at, scratch.first(pose.size()));
     const Sample<Vec3> target = target_.sample(sight.log, sight.at(time, sight.side), chain_.nodes(), pose);
-    chains::follow_from(chain_, target, time - time_of(state.step), weight, state.memory.turns, {}, pose);
+    const double since = std::clamp(time - time_of(state.step), 0.0, 1 / steps_per_second);
+    chains::follow_from(chain_, target, since, weight, state.memory.turns, {}, state.memory.since_search, pose);
   }
   void begin_again(ReachState& state, double time, const ClockSight& sight, const PoseAt& pose_at,
                    std::span<Motion> scratch, std::span<const Motion> before,
@@ -50,36 +55,45 @@ class FollowingChain : public Swing<ReachState> {
     const std::span<Motion> room = scratch.first(before.size());
     go_to(state, time, sight, pose_at, room);
     std::ranges::copy(before, room.begin());
-    advance(state, time, time - time_of(state.step), sight, Side::in, room);
+    advance(state, time, std::clamp(time - time_of(state.step), 0.0, 1 / steps_per_second), sight, Side::in, room);
     state.step = 0;
   }
 
  private:
   static double time_of(std::int64_t step) noexcept { return static_cast<double>(step) / steps_per_second; }
 
-  void advance(ReachState& state, double time, double seconds, const ClockSight& sight, Side side,
+  /// @param seconds  since the pose that is remembered; none: it begins
+  void advance(ReachState& state, double time, std::optional<double> seconds, const ClockSight& sight, Side side,
                std::span<Motion> pose) const noexcept {
     const Sample<Vec3> target = target_.sample(sight.log, sight.at(time, side), chain_.nodes(), pose);
     const std::span<Quat> turns = state.memory.turns;
-    chains::follow_from(chain_, target, seconds, {0, 0, 0}, state.step < 0 ? turns.first(0) : turns, turns, pose);
+    state.memory.since_search =
+        chains::follow_from(chain_, target, seconds.value_or(0), {0, 0, 0}, seconds ? turns : turns.first(0), turns,
+                            state.memory.since_search, pose);
   }
-  /// To the last point of the grid up to `time`. More than an hour after all that is remembered it begins anew.
+  void begin_at(ReachState& state, std::int64_t step, double time, const ClockSight& sight, const PoseAt& pose_at,
+                std::span<Motion> room) const noexcept {
+    rest(state);
+    pose_at(time, room);
+    advance(state, time, std::nullopt, sight, Side::out, room);
+    state.step = step;
+  }
+  /// To the last point of the grid up to `time`. Every ten minutes it begins anew, whoever asks for which times: so
+  /// none takes longer to find than ten minutes of following.
   void go_to(ReachState& state, double time, const ClockSight& sight, const PoseAt& pose_at,
              std::span<Motion> room) const noexcept {
-    constexpr double oldest = 3600;  // s
-    const bool usable = state.memory.turns.size() == chain_.joints().size() && time_of(state.step) <= time;
-    if (!usable) rest(state);
-    if (const double skipped = time - oldest; time_of(state.step + 1) < skipped) {
-      rest(state);
-      const double from = std::floor(time * steps_per_second);
-      pose_at(from / steps_per_second, room);
-      advance(state, from / steps_per_second, 0, sight, Side::out, room);
-      state.step = static_cast<std::int64_t>(from);
-    }
-    for (; state.step < 0 || time_of(state.step + 1) <= time; ++state.step) {
+    constexpr double spell = 600;       // s
+    constexpr double countable = 1e13;  // s; later, the points of the grid are no longer apart
+    if (state.memory.turns.size() != chain_.joints().size() || !(time_of(state.step) <= time)) rest(state);
+    if (!(time < countable)) return begin_at(state, most_steps, time, sight, pose_at, room);
+    constexpr auto steps_per_spell = static_cast<std::int64_t>(spell * steps_per_second);
+    const std::int64_t first = static_cast<std::int64_t>(time / spell) * steps_per_spell;
+    if (state.step < first) begin_at(state, first, time_of(first), sight, pose_at, room);
+    while (time_of(state.step + 1) <= time) {
       const double next = time_of(state.step + 1);
       pose_at(next, room);
       advance(state, next, 1 / steps_per_second, sight, Side::out, room);
+      ++state.step;
     }
   }
 

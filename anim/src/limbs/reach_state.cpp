@@ -17,7 +17,8 @@ ReachState ReachState::from_bytes(std::span<const std::byte> bytes) {
   if (bytes.size() < 8) in.require_size(8);
   ReachState state;
   state.step = in.number();
-  if (state.step < -1) throw std::invalid_argument("chain state: it begins before its clock");
+  if (state.step < -1 || state.step > most_steps)
+    throw std::invalid_argument("chain state: it stands at no time of its clock");
   state.memory = ChainMemory::from_bytes(bytes.subspan(8));
   return state;
 }

@@ -8,6 +8,9 @@
 
 namespace tweenfall::graphs {
 
+/// More are not counted: the numbers would no longer be whole.
+inline constexpr std::int64_t most_steps = std::int64_t{1} << 52;
+
 struct ReachState {
   std::int64_t step = -1;  // of its grid; -1: it has not begun
   ChainMemory memory{};

@@ -33,6 +33,12 @@ class Number {
     if (curve_) return changes(*curve_, time);
     return description_ && graphs::flows(log, *description_, parameter_, time, side);
   }
+  /// After how many seconds its keys come around; infinity where they do not.
+  [[nodiscard]] double round() const noexcept {
+    if (curve_) return round_of(*curve_);
+    if (!description_ || !description_->parameters[parameter_].curve) return std::numeric_limits<double>::infinity();
+    return round_of(*description_->parameters[parameter_].curve);
+  }
   /// When keys that come later begin to change it; infinity for none.
   [[nodiscard]] double first_change(double after) const noexcept {
     constexpr double never = std::numeric_limits<double>::infinity();

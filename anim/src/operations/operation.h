@@ -67,6 +67,9 @@ struct Bearer {
     return operation == other.operation && clip == other.clip && start == other.start;
   }
 };
+/// Steps that follow weights whose keys come around: fewer would see the same part of each round.
+inline constexpr double steps_per_round = 8;
+
 /// The clips that show at a time; the weight missing to 1 stands still.
 struct Bearers {
   static constexpr std::size_t most = 64;
@@ -75,6 +78,7 @@ struct Bearers {
   bool flow = false;                                             // their weights may change without an input
   double flow_from = std::numeric_limits<double>::infinity();    // s; when they do later, if they do not now
   double flow_since = -std::numeric_limits<double>::infinity();  // s; when that began last
+  double round = std::numeric_limits<double>::infinity();        // s; the shortest after which their keys come around
   bool adds = false;    // layers that add count, too, and their references as much below 0
   bool adding = false;  // what comes now is of such a layer
 
@@ -85,6 +89,7 @@ struct Bearers {
     flow = flow || weight.flows(log, moment.time, moment.side);
     flow_from = std::min(flow_from, weight.first_change(moment.time));
     flow_since = std::max(flow_since, weight.last_change(log, moment.time));
+    round = std::min(round, weight.round());
   }
   [[nodiscard]] const Bearer* find(const Bearer& wanted) const noexcept {
     for (std::size_t i = 0; i < count; ++i)

@@ -58,6 +58,12 @@ double SpaceWeights::last_change(const Log& log, double time) const noexcept {
   return last;
 }
 
+double SpaceWeights::round() const noexcept {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Number& number : by_) shortest = std::min(shortest, number.round());
+  return shortest;
+}
+
 double SpaceWeights::next_setting(const Log& log, double after) const noexcept {
   double next = std::numeric_limits<double>::infinity();
   for (const Number& number : by_)
@@ -158,7 +164,7 @@ class Phase::Step {
  private:
   /// Whether so many markers pass that no one could tell where the phase is, nor wait until they are counted.
   [[nodiscard]] bool is_blur() const noexcept {
-    constexpr double most_markers = 10'000;
+    constexpr double most_markers = 500;
     std::array<Sample<double>, most_blended> shares;
     double fastest = 0;
     for (const double part : {0.0, 1.0}) {
@@ -192,7 +198,8 @@ double Phase::next_beat(const Log& log, double start, double after) const noexce
   if (weights_.flows(log, after)) {
     double per_second = stops_per_second;
     const double since = after - std::max(start, weights_.last_change(log, after));
-    for (double reach = 4096; since >= reach; reach *= 2) per_second /= 2;
+    const double fewest = steps_per_round / weights_.round();
+    for (double reach = 4096; since >= reach && per_second >= 2 * fewest; reach *= 2) per_second /= 2;
     const double passed = std::floor((after - start) * per_second);
     for (double count = std::max(passed, 0.0); count <= passed + 2; ++count)
       if (const double stop = start + count / per_second; stop > after) return stop;

@@ -26,6 +26,8 @@ class SpaceWeights {
   [[nodiscard]] double first_change(double after) const noexcept;
   /// When a parameter was last set, or keys began, up to a time; -infinity for never.
   [[nodiscard]] double last_change(const Log& log, double time) const noexcept;
+  /// The shortest of the times after which their keys come around; infinity where none do.
+  [[nodiscard]] double round() const noexcept;
   /// The first setting that is hidden while looking ahead; infinity for none.
   [[nodiscard]] double first_unseen(const Log& log) const noexcept;
   /// Whether the weights may change from a time until the next setting.

@@ -13,10 +13,11 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The next end of a step: 480 times per second from an instant on, and half as often whenever the time since then has
 /// doubled from 4096 s on, so that looking a million years ahead is fast.
-double next_stop(double instant, double after) noexcept {
+/// @param round  s, after which what moves comes around: steps stay short beside it
+double next_stop(double instant, double round, double after) noexcept {
   const double since = after - instant;
   double size = 1.0 / 480;
-  for (double reach = 4096; since >= reach; reach *= 2) size *= 2;
+  for (double reach = 4096; since >= reach && 2 * size * steps_per_round <= round; reach *= 2) size *= 2;
   const double passed = std::floor(since / size);
   const double stop = instant + (passed + 1) * size;
   return stop > after ? stop : instant + (passed + 2) * size;
@@ -329,8 +330,9 @@ Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) 
         if (here <= sure) trail.pass(here, reached);
         continue;
       }
-      own.end = std::min(
-          lap_end, next_stop(std::max(last_instant(log, moment.start, here, Side::out), bearers.flow_since), here));
+      own.end =
+          std::min(lap_end, next_stop(std::max(last_instant(log, moment.start, here, Side::out), bearers.flow_since),
+                                      bearers.round, here));
       next = std::min(next, own.end);
     }
     if (next > moment.time || (next == moment.time && moment.side == Side::in)) {

@@ -1,6 +1,7 @@
 // Chains that follow their target in graphs: as alone, the same at every frame rate and in any order, and saved.
 
 #include "figure_support.h"
+#include "graph_support.h"
 
 #include <tweenfall/anim/following_chain.h>
 
@@ -76,7 +77,7 @@ TEST_CASE("a chain follows the same way at 30, 60 and 144 frames per second, for
       seen.emplace_back(time, shown(player, time));
     }
     for (const auto& [time, pose] : seen) {
-      CAPTURE(time);
+      INFO("at ", time, " s");
       CHECK(same_bits(shown(all, time), pose));
     }
     for (std::size_t i = seen.size(); i-- > 0;) CHECK(same_bits(shown(player, seen[i].first), seen[i].second));
@@ -121,4 +122,17 @@ TEST_CASE("a graph with a chain that follows is saved and loaded with where it i
     flipped[i] ^= std::byte{0x10};
     CHECK_THROWS_AS(victim.load(flipped), std::invalid_argument);
   }
+}
+
+TEST_CASE(
+    "whoever asks for which times, a chain that follows begins anew at the same ones, and finds the farthest at once") {
+  GraphPlayer played(figure_graph(wagging(1.0))), asked(figure_graph(wagging(1.0)));
+  for (const double time : {0.5, 599.9, 600.0, 600.4}) static_cast<void>(shown(played, time));
+  for (const double time : {600.4, 601.0}) CHECK(same_bits(shown(asked, time), shown(played, time)));
+  for (const double time : {1e6, 1e13, 3e13, 1e17, 1e18}) {
+    CAPTURE(time);
+    const std::vector<Motion> there = shown(asked, time);
+    CHECK(std::ranges::all_of(there, [](const Motion& motion) { return motion.pose.rotation.coeffs().allFinite(); }));
+  }
+  CHECK(same_bits(shown(asked, 0.5), shown(played, 0.5)));
 }

@@ -57,7 +57,8 @@ TEST_CASE("motors and suspensions damped less than critically swing as the close
 }
 
 TEST_CASE("an undamped motor of a bar on a lever gains nothing in a hundred seconds") {
-  for (const auto& [hz, dt] : {std::pair(20.0, 1.0 / 240), std::pair(7.0, 1.0 / 60), std::pair(5.0, 1.0 / 20)}) {
+  for (const auto& one : {std::pair(20.0, 1.0 / 240), std::pair(7.0, 1.0 / 60), std::pair(5.0, 1.0 / 20)}) {
+    const double hz = one.first, dt = one.second;
     CAPTURE(hz);
     World world({.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()});
     BodySettings bar{.shape = {Box{{0.25, 0.05, 0.05}}}};

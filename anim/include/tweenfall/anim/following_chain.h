@@ -12,11 +12,12 @@
 /// From pose to pose the joints go back toward the script, with a time constant of 0.2 s, as far as the target lets
 /// them: where that rests, they are as near to the script as they can be nearby, whatever the way there. Where the
 /// chain has `leaps` and its target is not reached, it leaps to a pose that reaches it or, if there is none, to the
-/// nearest.
+/// nearest; after a search in vain it searches again a quarter of a second later, for that takes long.
 
 #include <tweenfall/anim/joint_chain.h>
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,9 @@ namespace tweenfall {
 /// The pose that a chain had.
 struct ChainMemory {
   std::vector<Quat> turns;  ///< of its joints, from rest; empty: none yet
+  /// Since it searched in vain for a pose that reaches its target, s; infinity: it has reached it since, or not
+  /// searched.
+  double since_search = std::numeric_limits<double>::infinity();
 
   bool operator==(const ChainMemory& other) const noexcept;
   [[nodiscard]] std::vector<std::byte> bytes() const;
