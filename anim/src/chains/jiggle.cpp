@@ -44,7 +44,7 @@ class Walk {
     const std::size_t before = chain_.joints()[number_], now = chain_.joints()[++number_];
     carrier_ = here_;
     const std::size_t parent = chain_.nodes()[now].parent;
-    if (parent != before) carrier_ = pose::compose_reflected(here_, seen_from(chain_.nodes(), before, parent, pose_));
+    if (parent != before) carrier_ = compose(here_, seen_from(chain_.nodes(), before, parent, pose_));
     stand();
   }
 
@@ -53,12 +53,11 @@ class Walk {
     const std::size_t node = chain_.joints()[number_];
     const bool last = number_ + 1 == chain_.joints().size();
     const std::size_t next = last ? chain_.tail() : chain_.joints()[number_ + 1];
-    here_ = pose::compose_reflected(carrier_, pose_[node]);
+    here_ = compose(carrier_, pose_[node]);
     joint_ = position_of(here_);
     Motion tip;
     tip.pose.position = chain_.tip();
-    tail_ = position_of(
-        pose::compose_reflected(here_, next == no_node ? tip : seen_from(chain_.nodes(), node, next, pose_)));
+    tail_ = position_of(compose(here_, next == no_node ? tip : seen_from(chain_.nodes(), node, next, pose_)));
   }
 
   const JiggleChain& chain_;

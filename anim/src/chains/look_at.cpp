@@ -102,8 +102,7 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
                  turn * Arrow{signs.cwiseProduct(chain.forward()), still},
                  turn * Arrow{signs.cwiseProduct(chain.up()), still}};
   };
-  const Motion looking =
-      first == last ? pose[last] : tweenfall::pose::compose_reflected(pose[first], seen_from(nodes, first, last, pose));
+  const Motion looking = first == last ? pose[last] : compose(pose[first], seen_from(nodes, first, last, pose));
   const Sight before = sight_of(looking);
   const Measured way = measured(inward.point(arrow(goal.target)) - before.eye);
   if (!way.any) return;
@@ -114,12 +113,10 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const std::size_t node = joints[i].node;
     if (i > 0 && nodes[node].parent != joints[i - 1].node)
-      carrier =
-          tweenfall::pose::compose_reflected(carrier, seen_from(nodes, joints[i - 1].node, nodes[node].parent, pose));
-    const Motion here = tweenfall::pose::compose_reflected(carrier, pose[node]);
+      carrier = compose(carrier, seen_from(nodes, joints[i - 1].node, nodes[node].parent, pose));
+    const Motion here = compose(carrier, pose[node]);
     const Arrow joint = position_of(here);
-    Sight sight =
-        sight_of(node == last ? here : tweenfall::pose::compose_reflected(here, seen_from(nodes, node, last, pose)));
+    Sight sight = sight_of(node == last ? here : compose(here, seen_from(nodes, node, last, pose)));
     sight.eye = sight.eye - joint;
     const Measured to = measured(target - joint);
     Motion turned = pose[node];
@@ -140,7 +137,7 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
       turned.pose.rotation = local.v;
       turned.twist.angular = local.w;
     }
-    carrier = tweenfall::pose::compose_reflected(carrier, turned);
+    carrier = compose(carrier, turned);
     turn_to(pose[node], rotation_of(turned), weight);
   }
 }

@@ -4,14 +4,13 @@
 
 #include <tweenfall/anim/hierarchy.h>
 #include <tweenfall/curves/elementary.h>
+#include <tweenfall/curves/reflection.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <type_traits>
-
-#include "pose/reflection.h"
 
 // Small functions are always inlined: a solve is a few hundred operations, and calls would take half of its time.
 
@@ -312,24 +311,17 @@ inline WorldMotion above(const Hierarchy& nodes, std::size_t node, std::span<con
   return nodes.world_motion(parent, [&](std::size_t i) -> const Motion& { return pose[i]; });
 }
 
-/// Motion of a node in the world, `no_node` for the world itself, with the rotation that it has where scales mirror.
+/// Motion of a node in the world, `no_node` for the world itself.
 inline Motion in_world(const Hierarchy& nodes, std::size_t node, std::span<const Motion> pose) noexcept {
   if (node == no_node) return {};
-  bool mirrors = false;
-  for (std::size_t i = node; i != no_node; i = nodes[i].parent) mirrors = mirrors || pose[i].pose.scale.minCoeff() < 0;
-  if (!mirrors) return nodes.world_motion(node, [&](std::size_t i) -> const Motion& { return pose[i]; }).motion;
-  Motion motion = pose[node];
-  for (std::size_t i = nodes[node].parent; i != no_node; i = nodes[i].parent)
-    motion = pose::compose_reflected(pose[i], motion);
-  return motion;
+  return nodes.world_motion(node, [&](std::size_t i) -> const Motion& { return pose[i]; }).motion;
 }
 
 /// Motion of `node` in the space of `top`, which is above it.
 inline Motion seen_from(const Hierarchy& nodes, std::size_t top, std::size_t node,
                         std::span<const Motion> pose) noexcept {
   Motion motion = pose[node];
-  for (std::size_t i = nodes[node].parent; i != top; i = nodes[i].parent)
-    motion = pose::compose_reflected(pose[i], motion);
+  for (std::size_t i = nodes[node].parent; i != top; i = nodes[i].parent) motion = compose(pose[i], motion);
   return motion;
 }
 

@@ -23,7 +23,7 @@ TwoBones two_bones(const TwoBoneChain& chain, std::span<const Motion> pose) noex
   const Motion carrier = nodes[chain.middle()].parent == chain.start()
                              ? Motion{}
                              : seen_from(nodes, chain.start(), nodes[chain.middle()].parent, pose);
-  const Motion middle = tweenfall::pose::compose_reflected(carrier, pose[chain.middle()]),
+  const Motion middle = compose(carrier, pose[chain.middle()]),
                end = seen_from(nodes, chain.middle(), chain.end(), pose);
   const Arrow scale = scale_of(pose[chain.start()]);
   TwoBones bones;

@@ -1,5 +1,7 @@
 #include "pose/frame_kernels.h"
 
+#include <tweenfall/curves/reflection.h>
+
 #include <cmath>
 
 #include "pose/moving_frame.h"
@@ -48,9 +50,17 @@ TWEENFALL_POSE_INLINED MovingFrame read(const WorldMotion& world) noexcept {
 [[gnu::always_inline]] inline void turn(const WorldMotion& parent, const Motion& local, WorldMotion& world) noexcept {
   const Motion& above = parent.motion;
   Motion& motion = world.motion;
-  motion.pose.rotation = near_unit(above.pose.rotation * local.pose.rotation);
+  Quat rotation = local.pose.rotation;
+  Vec3 angular = local.twist.angular;
+  const Vec3& scale = above.pose.scale;
+  if (scale[0] < 0 || scale[1] < 0 || scale[2] < 0) [[unlikely]] {
+    const Vec3 reflection = reflection_of(scale);
+    rotation = reflected_by(reflection, rotation);
+    angular = reflection.cwiseProduct(angular);
+  }
+  motion.pose.rotation = near_unit(above.pose.rotation * rotation);
   motion.pose.scale = above.pose.scale.cwiseProduct(local.pose.scale);
-  motion.twist.angular = above.twist.angular + above.pose.rotation * local.twist.angular;
+  motion.twist.angular = above.twist.angular + above.pose.rotation * angular;
   motion.scale_rate = above.scale_rate.cwiseProduct(local.pose.scale) + above.pose.scale.cwiseProduct(local.scale_rate);
 }
 

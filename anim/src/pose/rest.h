@@ -3,13 +3,12 @@
 // Rest poses in the space of the whole figure.
 
 #include <tweenfall/anim/hierarchy.h>
+#include <tweenfall/curves/reflection.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <cmath>
 #include <span>
 #include <vector>
-
-#include "pose/reflection.h"
 
 namespace tweenfall::pose {
 
@@ -19,7 +18,7 @@ namespace tweenfall::pose {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Pose own = local.empty() ? nodes[i].rest : local[i];
     own.rotation = normalized(own.rotation);
-    poses[i] = nodes[i].parent == no_node ? own : compose_reflected(poses[nodes[i].parent], own);
+    poses[i] = nodes[i].parent == no_node ? own : compose(poses[nodes[i].parent], own);
     poses[i].rotation = normalized(poses[i].rotation);
   }
   return poses;

@@ -129,9 +129,7 @@ class Retarget::Maker {
     Pose rest = target_[i].rest;
     rest.rotation = normalized(rest.rotation);
     const bool mapped = map_.source_of[i] != no_node;
-    standing_.push_back(mapped              ? target_stance_[i]
-                        : parent == no_node ? rest
-                                            : pose::compose_reflected(standing_[parent], rest));
+    standing_.push_back(mapped ? target_stance_[i] : parent == no_node ? rest : compose(standing_[parent], rest));
   }
 
   void place(Retarget& result, std::size_t i) {
@@ -236,8 +234,7 @@ void Retarget::apply(std::span<const Motion> source, std::span<Motion> out) cons
     result = joint.rest;
     if (joint.source == no_node) continue;
     Motion chain = source[chains_[joint.chain]];
-    for (std::size_t k = joint.chain + 1; k < joint.chain_end; ++k)
-      chain = pose::compose_reflected(chain, source[chains_[k]]);
+    for (std::size_t k = joint.chain + 1; k < joint.chain_end; ++k) chain = compose(chain, source[chains_[k]]);
     result.pose.rotation = joint.before * pose::reflected_by(joint.reflection, chain.pose.rotation) * joint.after;
     result.twist.angular = joint.before * joint.reflection.cwiseProduct(chain.twist.angular);
     result.pose.position += joint.way * Vec3(chain.pose.position - joint.chain_place);

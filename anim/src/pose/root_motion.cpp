@@ -53,7 +53,7 @@ RootMotion::RootMotion(const Hierarchy& nodes, std::string_view node, const Root
 
 Motion RootMotion::above(std::span<const Motion> pose) const noexcept {
   Motion motion;
-  for (std::size_t i = chain_.size(); i-- > 1;) motion = pose::compose_reflected(motion, pose[chain_[i]]);
+  for (std::size_t i = chain_.size(); i-- > 1;) motion = compose(motion, pose[chain_[i]]);
   return motion;
 }
 
@@ -81,19 +81,19 @@ Motion RootMotion::frame_of(const Motion& node) const noexcept {
 }
 
 Motion RootMotion::carried(std::span<const Motion> pose) const noexcept {
-  return frame_of(pose::compose_reflected(above(pose), pose[node()]));
+  return frame_of(compose(above(pose), pose[node()]));
 }
 
 Motion RootMotion::take_out(std::span<Motion> pose) const noexcept {
-  const Motion parent = above(pose), whole = pose::compose_reflected(parent, pose[node()]), frame = frame_of(whole);
-  pose[node()] = pose::relative_to_reflected(parent, relative_to(frame, whole));
+  const Motion parent = above(pose), whole = compose(parent, pose[node()]), frame = frame_of(whole);
+  pose[node()] = relative_to(parent, relative_to(frame, whole));
   return frame;
 }
 
 void RootMotion::put_back(std::span<Motion> pose, const Motion& frame) const noexcept {
   const Motion parent = above(pose);
-  const Motion whole = pose::compose_reflected(parent, pose[node()]);
-  pose[node()] = pose::relative_to_reflected(parent, compose(frame, whole));
+  const Motion whole = compose(parent, pose[node()]);
+  pose[node()] = relative_to(parent, compose(frame, whole));
 }
 
 }  // namespace tweenfall

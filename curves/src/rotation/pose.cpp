@@ -1,4 +1,5 @@
 #include <tweenfall/curves/pose.h>
+#include <tweenfall/curves/reflection.h>
 #include <tweenfall/curves/rotation.h>
 
 #include "rotation/rotation_parts.h"
@@ -10,7 +11,8 @@ Vec3 transform_point(const Pose& pose, const Vec3& point) noexcept {
 }
 
 Pose compose(const Pose& parent, const Pose& child) noexcept {
-  return {transform_point(parent, child.position), parent.rotation * child.rotation,
+  const Vec3 reflection = pose::reflection_of(parent.scale);
+  return {transform_point(parent, child.position), parent.rotation * pose::reflected_by(reflection, child.rotation),
           parent.scale.cwiseProduct(child.scale)};
 }
 
@@ -21,7 +23,9 @@ Motion compose(const Motion& parent, const Motion& child) noexcept {
   const Vec3 local =
       parent.scale_rate.cwiseProduct(child.pose.position) + parent.pose.scale.cwiseProduct(child.twist.linear);
   result.twist.linear = velocity_at(parent.twist, arm) + parent.pose.rotation * local;
-  result.twist.angular = parent.twist.angular + parent.pose.rotation * child.twist.angular;
+  const Vec3 reflection = pose::reflection_of(parent.pose.scale);
+  result.twist.angular =
+      parent.twist.angular + parent.pose.rotation * Vec3(reflection.cwiseProduct(child.twist.angular));
   result.scale_rate =
       parent.scale_rate.cwiseProduct(child.pose.scale) + parent.pose.scale.cwiseProduct(child.scale_rate);
   return result;
@@ -32,12 +36,13 @@ Motion relative_to(const Motion& parent, const Motion& world) noexcept {
   const Quat back = parent.pose.rotation.conjugate();
   const Vec3 arm = world.pose.position - parent.pose.position;
   result.pose.position = (back * arm).cwiseQuotient(parent.pose.scale);
-  result.pose.rotation = back * world.pose.rotation;
+  const Vec3 reflection = pose::reflection_of(parent.pose.scale);
+  result.pose.rotation = pose::reflected_by(reflection, back * world.pose.rotation);
   result.pose.scale = world.pose.scale.cwiseQuotient(parent.pose.scale);
   const Vec3 carried = back * Vec3(world.twist.linear - velocity_at(parent.twist, arm));
   result.twist.linear =
       (carried - parent.scale_rate.cwiseProduct(result.pose.position)).cwiseQuotient(parent.pose.scale);
-  result.twist.angular = back * Vec3(world.twist.angular - parent.twist.angular);
+  result.twist.angular = reflection.cwiseProduct(back * Vec3(world.twist.angular - parent.twist.angular));
   result.scale_rate =
       (world.scale_rate - parent.scale_rate.cwiseProduct(result.pose.scale)).cwiseQuotient(parent.pose.scale);
   return result;

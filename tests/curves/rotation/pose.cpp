@@ -54,6 +54,33 @@ TEST_CASE("relative_to undoes compose, rates included") {
   CHECK(test::near(back.scale_rate, child.scale_rate, 1e-14));
 }
 
+TEST_CASE(
+    "below scales that mirror, composed poses have the matrices, the rates and the inverses of composed matrices") {
+  const auto matrix = [](const Pose& pose) { return Mat3(pose.rotation.toRotationMatrix() * pose.scale.asDiagonal()); };
+  for (int signs = 0; signs < 64; ++signs) {
+    CAPTURE(signs);
+    const auto mirrored = [&](double t, double phase, int first) {
+      Motion motion = moving(t, phase);
+      for (int i = 0; i < 3; ++i)
+        if (signs >> (first + i) & 1) {
+          motion.pose.scale[i] *= -1;
+          motion.scale_rate[i] *= -1;
+        }
+      return motion;
+    };
+    const Motion parent = mirrored(0.6, 0.7, 0), child = mirrored(0.6, -1.1, 3), whole = compose(parent, child);
+    CHECK(test::near(matrix(whole.pose), Mat3(matrix(parent.pose) * matrix(child.pose)), 1e-14));
+    check_rates([&](double x) { return compose(mirrored(x, 0.7, 0), mirrored(x, -1.1, 3)); }, 0.6);
+    const Motion back = relative_to(parent, whole);
+    CHECK(test::near(back.pose.position, child.pose.position, 1e-14));
+    CHECK(test::near(back.pose.rotation, child.pose.rotation, 1e-14));
+    CHECK(test::near(back.pose.scale, child.pose.scale, 1e-14));
+    CHECK(test::near(back.twist.linear, child.twist.linear, 1e-13));
+    CHECK(test::near(back.twist.angular, child.twist.angular, 1e-13));
+    CHECK(test::near(back.scale_rate, child.scale_rate, 1e-14));
+  }
+}
+
 TEST_CASE("mixed motions carry the rates of their poses and of the weight") {
   const auto mixed = [](double x) {
     const double weight = 0.5 + 0.4 * std::sin(2 * x);

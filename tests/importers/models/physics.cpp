@@ -249,6 +249,41 @@ TEST_CASE("a joint of each kind is read from glTF as it was written") {
   CHECK(written_and_read(joined_by(GearJoint{})).joints.empty());
 }
 
+TEST_CASE("joints and shapes on mirrored nodes go through glTF where the matrices have them") {
+  Model model = joined_by(HingeJoint{});
+  model.nodes[1].rest.scale = {-1, 1, 1};
+  model.nodes[2].rest.scale = {2, -2, 2};
+  const Model again = written_and_read(model);
+  REQUIRE(again.joints.size() == 1);
+  const JointDescription &joint = model.joints.front(), &same = again.joints.front();
+  CHECK(near(same.frame_a.position, joint.frame_a.position, 1e-12));
+  CHECK(near(same.frame_b.position, joint.frame_b.position, 1e-12));
+  CHECK(near(same.frame_a.rotation, joint.frame_a.rotation, 1e-7));
+  CHECK(near(same.frame_b.rotation, joint.frame_b.rotation, 1e-7));
+  const auto frame = std::ranges::find(again.nodes, "joint a", &Node::name);
+  REQUIRE(frame != again.nodes.end());
+  REQUIRE(frame->parent == same.a);
+  const auto linear = [](const Pose& pose) { return Mat3(pose.rotation.toRotationMatrix() * pose.scale.asDiagonal()); };
+  const Quat in_world = model.nodes[1].rest.rotation * joint.frame_a.rotation;
+  const Mat3 found = linear(again.nodes[same.a].rest) * linear(frame->rest);
+  CHECK(near(Mat3(found * Vec3(-1, 1, 1).asDiagonal()), in_world.toRotationMatrix(), 1e-7));
+  // Read from any file: frames of two bodies that are one place and one direction have their coordinates at 0.
+  const std::string text = two_jointed_balls(lock("linearAxes", "0,1,2"));
+  for (const char* mirror : {"-1,1,1", "1,-1,1", "1,-1,-1"}) {
+    std::string mirrored = text;
+    mirrored.replace(mirrored.find(R"({"name":"upper",)"), 16,
+                     R"({"name":"upper","rotation":[0,0.6,0,0.8],"scale":[)" + std::string(mirror) + "],");
+    mirrored.replace(mirrored.find(R"({"name":"pivot",)"), 16, R"({"name":"pivot","rotation":[0.6,0,0,0.8],)");
+    const Model read = read_text(mirrored);
+    REQUIRE(read.joints.size() == 1);
+    const auto sized = std::ranges::find(read.nodes, "upper", &Node::name);
+    const auto pivot = std::ranges::find(read.nodes, "pivot", &Node::name);
+    const Mat3 whole = linear(sized->rest) * linear(pivot->rest);
+    const Quat turned = sized->rest.rotation * read.joints[0].frame_a.rotation;
+    CHECK(near(turned.toRotationMatrix(), Mat3(whole * sized->rest.scale.asDiagonal()), 1e-6));
+  }
+}
+
 TEST_CASE("limits of a joint may be told one by one, along any axis") {
   const std::string places =
       lock("linearAxes", "0") + "," + lock("linearAxes", "2") + "," + lock("linearAxes", "1") + ",";

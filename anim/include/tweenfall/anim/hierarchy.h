@@ -33,8 +33,8 @@ struct Node {
 struct WorldMotion {
   Mat3 linear = Mat3::Identity();   ///< rotation and scale of the whole chain, shear included
   Mat3 linear_rate = Mat3::Zero();  ///< 1/s
-  Motion motion;                    ///< origin and its velocity; rotation: the chain's rotations multiplied (scales
-                  ///< left out) and their exact angular velocity; scale: the chain's scales multiplied
+  Motion motion;                    ///< as by `compose`, but the origin exact: the chain's rotations and its scales
+                  ///< multiplied, with exact rates; `linear` is that rotation times that scale unless sheared
 
   [[nodiscard]] Vec3 point(const Vec3& local) const noexcept { return linear * local + motion.pose.position; }
   [[nodiscard]] Vec3 point_velocity(const Vec3& local) const noexcept {

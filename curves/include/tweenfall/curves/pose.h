@@ -33,8 +33,8 @@ struct Motion {
 /// `point`, given in the space of `pose`, seen from outside.
 [[nodiscard]] Vec3 transform_point(const Pose& pose, const Vec3& point) noexcept;
 
-/// The pose that applies `child` first, then `parent`. Exact while the parent's scale is
-/// uniform or the child is not rotated; shear, which a pose cannot hold, is dropped.
+/// The pose that applies `child` first, then `parent`. Exact while the parent's scale is uniform but for signs, which
+/// mirror the child's turn, or the child is not rotated; shear, which a pose cannot hold, is dropped.
 [[nodiscard]] Pose compose(const Pose& parent, const Pose& child) noexcept;
 
 /// The same for motions: poses compose, rates follow by the product rule.

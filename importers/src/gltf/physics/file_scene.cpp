@@ -39,10 +39,8 @@ Pose pose_within(const FileScene& scene, std::size_t node, std::size_t ancestor)
   for (std::size_t i = node; i != ancestor && i != no_node; i = scene.nodes[i].node.parent) chain.push_back(i);
   Pose pose;
   for (auto i = chain.rbegin(); i != chain.rend(); ++i) {
-    const Pose& rest = scene.nodes[*i].node.rest;
-    pose.position += pose.rotation * pose.scale.cwiseProduct(rest.position);
-    pose.rotation = (pose.rotation * rest.rotation).normalized();
-    pose.scale = pose.scale.cwiseProduct(rest.scale);
+    pose = compose(pose, scene.nodes[*i].node.rest);
+    pose.rotation.normalize();
   }
   return pose;
 }

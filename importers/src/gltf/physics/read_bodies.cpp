@@ -15,8 +15,10 @@ namespace {
 
 constexpr double even_enough = 1e-6;
 
+/// Mirrored or not.
 bool is_even(const Vec3& scale) {
-  return (scale.array() - scale[0]).abs().maxCoeff() <= even_enough * std::abs(scale[0]);
+  const Vec3 size = scale.cwiseAbs();
+  return (size.array() - size[0]).abs().maxCoeff() <= even_enough * size[0];
 }
 
 /// Whether a solid is rotationally symmetric about y.
@@ -296,10 +298,7 @@ class BodyReader {
       bool below = false;
       for (std::size_t at = i; at != no_node && !below; at = scene_.nodes[at].node.parent) below = at == node;
       if (!below) continue;
-      Pose pose = pose_within(scene_, i, node);
-      pose.position = pose.position.cwiseProduct(scale);
-      pose.scale = pose.scale.cwiseProduct(scale);
-      append(out, *scene_.nodes[i].mesh, pose);
+      append(out, *scene_.nodes[i].mesh, compose({{0, 0, 0}, Quat::Identity(), scale}, pose_within(scene_, i, node)));
     }
     return out;
   }

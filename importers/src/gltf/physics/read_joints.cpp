@@ -2,6 +2,8 @@
 #include "gltf/physics/reduced_mass.h"
 #include "gltf/physics/written_physics.h"
 
+#include <tweenfall/curves/reflection.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -85,7 +87,11 @@ class JointReader {
     const std::size_t mover = mover_[node] != no_node && has_body_[mover_[node]] ? mover_[node] : no_node;
     Pose frame = pose_within(scene_, node, mover);
     // Frames of joints do not include the scale of the body's node.
-    if (mover != no_node) frame.position = frame.position.cwiseProduct(pose_within(scene_, mover, no_node).scale);
+    if (mover != no_node) {
+      const Vec3 scale = pose_within(scene_, mover, no_node).scale;
+      frame.position = frame.position.cwiseProduct(scale);
+      frame.rotation = pose::reflected_by(pose::reflection_of(scale), frame.rotation);
+    }
     return {mover, {frame.position, frame.rotation}};
   }
 

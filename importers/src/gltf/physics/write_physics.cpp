@@ -1,6 +1,8 @@
 #include "figures/shape_mesh.h"
 #include "gltf/physics/written_physics.h"
 
+#include <tweenfall/curves/reflection.h>
+
 #include <Eigen/Eigenvalues>
 
 #include <nlohmann/json.hpp>
@@ -179,7 +181,10 @@ class PhysicsWriter {
   std::size_t add_frame(const std::string& name, std::size_t node, const Pose& frame) {
     Pose pose{frame.position, frame.rotation};
     // A joint's frames do not include the scales of its nodes.
-    if (node != no_node) pose.position = pose.position.cwiseQuotient(scales_[node]);
+    if (node != no_node) {
+      pose.position = pose.position.cwiseQuotient(scales_[node]);
+      pose.rotation = pose::reflected_by(pose::reflection_of(scales_[node]), pose.rotation);
+    }
     return add_node({name, node, pose});
   }
 

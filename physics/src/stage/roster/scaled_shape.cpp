@@ -1,6 +1,7 @@
 #include "stage/roster/scaled_shape.h"
 
 #include <tweenfall/curves/number_text.h>
+#include <tweenfall/curves/reflection.h>
 
 #include <Eigen/LU>
 #include <cmath>
@@ -29,12 +30,17 @@ bool is_diagonal(const Mat3& matrix) {
   return rest.cwiseAbs().maxCoeff() <= even_enough * matrix.cwiseAbs().maxCoeff();
 }
 
-double uniform(const Vec3& scale, const char* what) {
+/// Whether it stretches all axes alike, mirrored or not.
+bool is_even(const Vec3& scale) {
   const Vec3 size = scale.cwiseAbs();
-  if (size.maxCoeff() - size.minCoeff() > even_enough * size.maxCoeff())
+  return size.maxCoeff() - size.minCoeff() <= even_enough * size.maxCoeff();
+}
+
+double uniform(const Vec3& scale, const char* what) {
+  if (!is_even(scale))
     throw std::invalid_argument(std::string(what) + " takes the same scale along all axes, but its node is scaled by " +
                                 triple(scale) + "; make it a hull, or scale its node evenly");
-  return size.x();
+  return std::abs(scale.x());
 }
 
 /// A solid of revolution about y, mirrored by a uniform scale, points where its mirrored axis does.
@@ -65,8 +71,10 @@ Solid scaled_surface(const Solid& solid, const Mat3& own) {
 
 RestAxes rest_axes_below(const RestAxes& parent, const Pose& rest) {
   const Mat3 rotation = rest.rotation.toRotationMatrix();
-  return {parent.linear * rotation * rest.scale.asDiagonal(), parent.turn * rotation,
-          parent.scaled || rest.scale != Vec3(1, 1, 1)};
+  const Vec3 signs = pose::signs_of(parent.scale);
+  const Mat3 reflected = signs.asDiagonal() * rotation * signs.asDiagonal();
+  return {parent.linear * rotation * rest.scale.asDiagonal(), parent.turn * reflected,
+          parent.scale.cwiseProduct(rest.scale), parent.scaled || rest.scale != Vec3(1, 1, 1)};
 }
 
 RestAxes rest_axes(const Hierarchy& nodes, std::size_t node) {
@@ -123,15 +131,21 @@ Shape scaled(const Shape& shape, const Vec3& scale) {
     tapered->half_height *= factor;
     mirror(result, scale);
   } else if (auto* box = std::get_if<Box>(&result.solid)) {
-    if (!is_diagonal(own))
+    if (is_diagonal(own)) {
+      box->half_extents = box->half_extents.cwiseProduct(Vec3(own.diagonal().cwiseAbs()));
+    } else if (is_even(scale)) {  // mirrored
+      box->half_extents *= std::abs(scale.x());
+      result.offset.rotation = pose::reflected_by(pose::reflection_of(scale), result.offset.rotation);
+    } else {
       throw std::invalid_argument(
           "a box that is turned on its node takes the same scale along all axes, but its node is "
           "scaled by " +
           triple(scale) + "; turn the node, or make it a hull");
-    box->half_extents = box->half_extents.cwiseProduct(Vec3(own.diagonal().cwiseAbs()));
+    }
   } else if (auto* plane = std::get_if<Plane>(&result.solid)) {
     if (!is_diagonal(own)) (void)uniform(scale, "a plane that is turned on its node");
-    const Vec3 normal = plane->normal.cwiseQuotient(Vec3(own.diagonal()));
+    const Vec3 normal = is_diagonal(own) ? Vec3(plane->normal.cwiseQuotient(Vec3(own.diagonal())))
+                                         : Vec3(turn.transpose() * Vec3((turn * plane->normal).cwiseQuotient(scale)));
     plane->offset /= normal.norm();
     plane->normal = normal.normalized();
   } else if (const auto* compound = std::get_if<Compound>(&shape.solid)) {

@@ -8,6 +8,7 @@ namespace tweenfall::staging {
 /// The axes that the rest poses of a node and its ancestors give it.
 struct RestAxes {
   Mat3 linear = Mat3::Identity(), turn = Mat3::Identity();
+  Vec3 scale{1, 1, 1};  ///< those of the chain multiplied
   bool scaled = false;
 };
 
