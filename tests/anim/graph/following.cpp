@@ -76,9 +76,9 @@ TEST_CASE("a chain follows the same way at 30, 60 and 144 frames per second, for
       player.seek(time);
       seen.emplace_back(time, shown(player, time));
     }
-    for (const auto& [time, pose] : seen) {
-      INFO("at ", time, " s");
-      CHECK(same_bits(shown(all, time), pose));
+    for (const auto& one : seen) {
+      CAPTURE(one.first);
+      CHECK(same_bits(shown(all, one.first), one.second));
     }
     for (std::size_t i = seen.size(); i-- > 0;) CHECK(same_bits(shown(player, seen[i].first), seen[i].second));
   }

@@ -100,7 +100,6 @@ TEST_CASE("rates are not joined where a play begins, turns, changes its speed or
   const Recording recording = record(stage, 3, 60);
   const std::pair<const char*, int> pieces[] = {{"there", 5}, {"once", 3}, {"slower", 3}};
   for (const auto& [node, count_of_pieces] : pieces) {
-    INFO(node);
     const std::string svg =
         plot_svg(document.stage(), &recording, {.tracks = {std::string(node) + ".position.x"}, .clip = ""});
     const std::size_t values = svg.find("class=\"curve\""), rates = svg.find("class=\"curve\"", values + 1);
