@@ -187,6 +187,8 @@ TEST_CASE("a step that is a rate is noted, and so is one too long for bodies") {
   CHECK(has(noted("240"), "did you mean \"1/240\"?"));
   CHECK(has(noted("240"), "(at /world/step)"));
   CHECK(has(noted("0.11"), "1/240 is usual"));
+  // As a rate it would be refused.
+  CHECK(has(noted("1e300"), "steps of 1e+300 s are too long for bodies that move; 1/240 is usual"));
   CHECK(has(noted("\"1/100000\""),
             "steps of 1e-05 s are 1e+05 per second, each of which takes its time; 1/240 is usual"));
   CHECK(noted("\"1/10000\"").empty());

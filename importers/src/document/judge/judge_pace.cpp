@@ -16,6 +16,7 @@ namespace tweenfall::document::judging {
 namespace {
 
 constexpr double hour = 3600, longest_usual_step = 0.1, shortest_usual_step = 0.99e-4;  // s
+constexpr double most_usual_rate = 1e4;                                                 // steps per second
 
 // @return whether turns can be judged by steps of this length
 bool judge_step(Building& building) {
@@ -25,7 +26,7 @@ bool judge_step(Building& building) {
                            "steps of " + brief_text(step) + " s are " + brief_text(1 / step) +
                                " per second, each of which takes its time; 1/240 is usual");
   if (!(step > longest_usual_step)) return true;
-  const bool rate = step > 1 && step == std::floor(step);
+  const bool rate = step > 1 && step <= most_usual_rate && step == std::floor(step);
   building.problems.note(fields::place_of_step(place_of_world(building)),
                          "steps of " + brief_text(step) + " s are too long for bodies that move" +
                              (rate ? "; did you mean \"1/" + number_text(step) + "\"?" : "; 1/240 is usual"));
