@@ -12,7 +12,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-constexpr double short_step = 1.0 / 240, weight = 9.81, awake = std::numeric_limits<double>::infinity();
+constexpr double short_step = 1.0 / 240, weight = 9.81, wheels_awake = std::numeric_limits<double>::infinity();
 
 /// Along z, as the x axis of a wheel's frame, with y up.
 const Quat axle(std::sqrt(0.5), 0, -std::sqrt(0.5), 0);
@@ -48,7 +48,8 @@ Car add_car(World& world, const Motor& motor) {
 }
 
 World ground_world(WorldPlane plane, double tilt = 0) {
-  World world({.gravity = weight * Vec3(-std::sin(tilt), -std::cos(tilt), 0), .sleep_after = awake, .plane = plane});
+  World world(
+      {.gravity = weight * Vec3(-std::sin(tilt), -std::cos(tilt), 0), .sleep_after = wheels_awake, .plane = plane});
   world.add({.shape = {Plane{}}, .friction = 1, .fixed = true});
   return world;
 }
@@ -58,7 +59,7 @@ World ground_world(WorldPlane plane, double tilt = 0) {
 TEST_CASE("in a plane a wheel hangs on its spring, swings at its rate, stays on its line and turns freely") {
   for (const double slant : {0.0, 0.6}) {
     const Vec2 line(std::sin(slant), std::cos(slant)), down = -weight * line;
-    planar::World world({.gravity = down, .sub_steps = 8, .sleep_after = awake});
+    planar::World world({.gravity = down, .sub_steps = 8, .sleep_after = wheels_awake});
     const BodyId wheel =
         world.add({.shape = {planar::Circle{0.3}}, .mass = 3.0, .motion = {.position = Vec2(1, 2), .spin = 5}});
     const JointId joint = world.add_joint(
@@ -76,7 +77,7 @@ TEST_CASE("in a plane a wheel hangs on its spring, swings at its rate, stays on 
   }
   // Damped, it rests at its sag, and a stop holds it before that.
   for (const double stop : {1.0, 0.1}) {
-    planar::World world({.sleep_after = awake});
+    planar::World world({.sleep_after = wheels_awake});
     const BodyId wheel = world.add({.shape = {planar::Circle{0.3}}, .mass = 3.0});
     const JointId joint =
         world.add_joint({.b = wheel, .kind = planar::Wheel{.hz = 1, .zeta = 1, .suspension = Limits{-stop, stop}}});

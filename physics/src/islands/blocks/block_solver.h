@@ -193,6 +193,7 @@ class BlockSolver {
   std::vector<BodyLag> lags_;
   std::vector<BodyLag> sub_starts_;  ///< linear displacements at the start of the sub-step
   islands::IslandDepth depth_;
+  std::vector<std::uint32_t> held_by_joints_;  ///< workspace: bodies at the ends of joints, sorted
   bool shifts_ = false;
   std::vector<std::uint32_t> island_of_;              ///< of bodies_: its index among the present islands
   std::vector<islands::IslandEnergy> energies_;       ///< of the present islands
