@@ -26,6 +26,24 @@ std::vector<double> parts_of(const T& value) {
     return std::vector<double>(value.data(), value.data() + value.size());
 }
 
+/// What `pick` takes of each sample; nothing of texts and switches.
+template <class Pick>
+std::vector<double> parts_at(const UserValue& value, std::size_t width, const Pick& pick) {
+  return std::visit(
+      [&]<class T>(const T& sample) -> std::vector<double> {
+        if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, bool>) {
+          return {};
+        } else if constexpr (std::is_same_v<T, std::vector<Sample<double>>>) {
+          std::vector<double> parts(std::max(width, sample.size()), 0);
+          for (std::size_t i = 0; i < sample.size(); ++i) parts[i] = pick(sample[i]);
+          return parts;
+        } else {
+          return parts_of(pick(sample));
+        }
+      },
+      value);
+}
+
 }  // namespace
 
 std::vector<std::string> number_names(const UserTrackRecord& track) {
@@ -46,37 +64,12 @@ std::vector<std::string> number_names(const UserTrackRecord& track) {
 }
 
 std::vector<double> numbers_at(const UserTrackRecord& track, std::size_t frame, std::size_t width) {
-  return std::visit(
-      [&]<class T>(const T& value) -> std::vector<double> {
-        if constexpr (std::is_same_v<T, std::string>) {
-          return {};
-        } else if constexpr (std::is_same_v<T, bool>) {
-          return {value ? 1.0 : 0.0};
-        } else if constexpr (std::is_same_v<T, std::vector<Sample<double>>>) {
-          std::vector<double> numbers(std::max(width, value.size()), 0);
-          for (std::size_t i = 0; i < value.size(); ++i) numbers[i] = value[i].value;
-          return numbers;
-        } else {
-          return parts_of(value.value);
-        }
-      },
-      track.value[frame]);
+  if (const auto* on = std::get_if<bool>(&track.value[frame])) return {*on ? 1.0 : 0.0};
+  return parts_at(track.value[frame], width, [](const auto& sample) { return sample.value; });
 }
 
 std::vector<double> rates_at(const UserTrackRecord& track, std::size_t frame, std::size_t width) {
-  return std::visit(
-      [&]<class T>(const T& value) -> std::vector<double> {
-        if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, bool>) {
-          return {};
-        } else if constexpr (std::is_same_v<T, std::vector<Sample<double>>>) {
-          std::vector<double> rates(std::max(width, value.size()), 0);
-          for (std::size_t i = 0; i < value.size(); ++i) rates[i] = value[i].rate;
-          return rates;
-        } else {
-          return parts_of(value.rate);
-        }
-      },
-      track.value[frame]);
+  return parts_at(track.value[frame], width, [](const auto& sample) { return sample.rate; });
 }
 
 }  // namespace tweenfall::recordings

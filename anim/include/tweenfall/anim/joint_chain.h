@@ -21,8 +21,8 @@
 /// of 10,000 random chains of any of these it misses one at most, and it comes as near as any pose does to what cannot
 /// be reached (of 1,000 random targets to all but 4, which it misses by up to 0.01 of the chain's length more). Then it
 /// jumps wherever another branch is nearer, and a target that cannot be reached takes about a hundred times as long,
-/// some milliseconds. A chain that remembers where it was reaches all of them, and leaps only where it must
-/// (following_chain.h).
+/// some milliseconds to tens of them. A chain that remembers where it was reaches all of them, and leaps only where it
+/// must (following_chain.h).
 
 #include <tweenfall/anim/node_ref.h>
 
