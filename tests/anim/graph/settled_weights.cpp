@@ -82,12 +82,13 @@ TEST_CASE("clips in phase by a weight with keys run as one of them before the fi
     }
 }
 
-TEST_CASE("weights whose keys come around are still followed to the end of a day") {
+TEST_CASE("weights whose keys come around are still followed after hours") {
   const auto keys =
       keyed_curve<double>({{.time = 0, .value = 0.2}, {.time = 1, .value = 0.8}, {.time = 2, .value = 0.2}})
           .with_outside(Outside::hold, Outside::repeat);
   GraphPlayer player(faster(keys, true, false));
-  CHECK(std::isfinite(way_at(player, 20'000)));
-  CHECK(way_at(player, 20'000) > 20'000);
-  CHECK(way_at(player, 20'000) < 40'000);
+  const double way = way_at(player, 20'000);
+  CHECK(std::isfinite(way));
+  CHECK(way > 20'000);
+  CHECK(way < 40'000);
 }
