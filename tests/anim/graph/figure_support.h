@@ -139,4 +139,23 @@ inline std::vector<Motion> shown(GraphPlayer& player, double time, Side side = S
   return pose;
 }
 
+/// Saves a player of the graph at 2.71 s, after all its inputs: another goes on from there to the same bits, and bytes
+/// that are cut or changed are refused.
+inline void check_saved(const std::shared_ptr<const Graph>& graph, GraphPlayer& player) {
+  player.seek(2.71);
+  static_cast<void>(shown(player, 2.71));
+  const std::vector<std::byte> saved = player.save();
+  GraphPlayer other(graph), victim(graph);
+  other.load(saved);
+  CHECK(other.save() == saved);
+  for (const double time : {2.71, 2.72, 4.0, 1.1}) CHECK(same_bits(shown(other, time), shown(player, time)));
+  for (std::size_t cut = 0; cut < saved.size(); cut += 7)
+    CHECK_THROWS_AS(victim.load(std::span(saved).first(cut)), std::invalid_argument);
+  for (std::size_t i = 0; i < saved.size(); i += 3) {
+    std::vector<std::byte> flipped = saved;
+    flipped[i] ^= std::byte{0x10};
+    CHECK_THROWS_AS(victim.load(flipped), std::invalid_argument);
+  }
+}
+
 }  // namespace tweenfall::test
