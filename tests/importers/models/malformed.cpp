@@ -110,6 +110,13 @@ TEST_CASE("JSON that other readers take is taken: a name given twice, zeros afte
   CHECK(name_of(R"({"asset": {"version": "2.0"}, "nodes": [{"name": "a"}], "meshes": [{"extras": 3}]})") == "a");
 }
 
+TEST_CASE("what is no glTF at all is told so, and a text named .glb is read") {
+  const ScratchFolder folder("no-glb");
+  const std::string error = outcome(folder.file("no.glb", "\x89PNG\r\n"));
+  CHECK(error.find("is no binary glTF, which begins with the letters \"glTF\"") != std::string::npos);
+  CHECK(outcome(folder.file("text.glb", " {\"asset\": {\"version\": \"2.0\"}}")) == "");
+}
+
 TEST_CASE("bytes of a file that are no text are spelled out where an error or a repair quotes them") {
   const ScratchFolder folder("bytes");
   for (const auto& file : std::initializer_list<std::pair<std::string, std::string>>{

@@ -23,6 +23,12 @@ struct Chunks {
   std::optional<std::string_view> binary;
 };
 
+/// Some call the text of a .gltf file .glb.
+bool begins_as_text(std::string_view bytes) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  return first == std::string_view::npos || bytes[first] == '{';
+}
+
 std::optional<Chunks> take_chunks(std::string_view bytes, models::ModelProblems& problems) {
   if (bytes.size() < 20) {
     problems.add("", "ends after " + std::to_string(bytes.size()) + " bytes, before its first chunk");
@@ -214,6 +220,9 @@ Container open_container(std::string_view bytes, const std::filesystem::path& fi
     if (!taken) return container;
     chunks = *taken;
     container.has_lines = false;
+  } else if (file.extension() == ".glb" && !begins_as_text(bytes)) {
+    problems.add("", "is no binary glTF, which begins with the letters \"glTF\"");
+    return container;
   }
   // Some writers fill the chunk up with zeros instead of spaces.
   chunks.json = chunks.json.substr(0, chunks.json.find_last_not_of('\0') + 1);
