@@ -29,9 +29,10 @@ class PlayedClip : public Operation {
   }
 
   void events(const Log&, const Stretch& stretch, std::vector<GraphEvent>& out) const override {
-    const bool begins = stretch.from == stretch.start;
+    const bool begins = stretch.from < stretch.start && at_ < 0;
+    if (begins) enter(stretch.start, out);
     for (FiredEvent& event :
-         events_between(play(stretch.start), clip_.clip(), stretch.from, stretch.to, begins && at_ == 0))
+         events_between(play(stretch.start), clip_.clip(), begins ? stretch.start : stretch.from, stretch.to))
       out.push_back({event.time, std::move(event.name), std::move(event.data), number_, kind_of(event.kind), 1});
   }
 
@@ -80,6 +81,20 @@ class PlayedClip : public Operation {
       const double time = clips::next_moment(rounds(), {&moment, 1}, began, speed_, after);
       if (time <= until) return time;
     }
+  }
+  /// Adds what a clip that started before `start` does there: events, and begins of the intervals that it is in.
+  void enter(double start, std::vector<GraphEvent>& out) const {
+    const double round = speed_ != 0 ? clip_.clip().duration / std::abs(speed_) : 0;
+    std::vector<FiredEvent> open;
+    for (FiredEvent& event :
+         events_between(play(start), clip_.clip(), start - std::min(-at_, round), start, -at_ <= round)) {
+      if (event.kind == FiredEvent::Kind::end)
+        std::erase_if(open, [&](const FiredEvent& begun) { return begun.name == event.name; });
+      else if (event.kind == FiredEvent::Kind::begin || event.time == start)
+        open.push_back(std::move(event));
+    }
+    for (FiredEvent& event : open)
+      out.push_back({start, std::move(event.name), std::move(event.data), number_, kind_of(event.kind), 1});
   }
   [[nodiscard]] ClipClock clock(const Moment& moment) const noexcept {
     return clips::steady_clock(rounds(), moment.start + at_, speed_, moment.time, moment.side);

@@ -20,6 +20,13 @@ void gather(const Operation& operation, std::vector<const Operation*>& all) {
   for (const Operation* part : operation.operands()) gather(*part, all);
 }
 
+/// Whether any clip of the graph shows in a pose.
+bool shows_clips(const Operation* base) {
+  std::vector<const Operation*> all;
+  if (base) gather(*base, all);
+  return std::ranges::any_of(all, [](const Operation* operation) { return !operation->own_clips().empty(); });
+}
+
 /// What stands above a figure and is not moved by its clips, the nearest first: the figure rides on it. Nothing where
 /// its clips move no node from `node` up.
 std::vector<std::size_t> carriers_of(const Hierarchy& nodes, std::size_t node, const Operation* clips) {
@@ -121,6 +128,11 @@ std::unique_ptr<Operation> bound(const RootMotionPose& described, Binder& binder
   if (!root || !changed.whole) return nullptr;
   binder.moves(node);
   if (onto != no_node) binder.moves(onto);
+  if (described.accumulates && !shows_clips(changed.base)) {
+    binder.fault({"root_motion", "accumulate"},
+                 "its base shows no clip of the graph whose steps could add up; plays below the graph do not count");
+    return nullptr;
+  }
   auto operation =
       std::make_unique<OnTheSpot>(std::move(changed), binder.nodes(), *std::move(root), std::move(carrier));
   if (described.accumulates) operation->accumulate(binder.new_travel());

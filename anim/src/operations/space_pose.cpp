@@ -186,11 +186,33 @@ const LoopedClip* synced_clip(const std::string& name, const Place& place, Binde
   for (const GraphPose& pose : binder.description().poses) {
     if (pose.name != name) continue;
     const auto* clip = std::get_if<ClipPose>(&pose.operation);
-    if (clip && clip->speed == 1 && clip->at == 0) return binder.clip(clip->clip, around, place);
-    binder.fault(place, "only clips at their own speed run in phase; \"" + name + "\" is none");
+    if (!clip || clip->speed != 1 || clip->at != 0)
+      binder.fault(place, "only clips at their own speed run in phase; \"" + name + "\" is none");
+    else if (clip->loop && *clip->loop != around)
+      binder.fault(place, "clips in phase go around without end; \"" + name + "\" has another loop");
+    else
+      return binder.clip(clip->clip, around, place);
     return nullptr;
   }
   return binder.clip(name, around, place);
+}
+
+/// The clips with those events as markers that match the pattern or, if it is empty, whose names all clips that have
+/// events share.
+std::vector<SyncClip> marked(std::span<const LoopedClip* const> clips, const std::string& pattern) {
+  const auto has = [](const Clip& clip, const std::string& name) {
+    return clip.events.empty() || std::ranges::find(clip.events, name, &ClipEvent::name) != clip.events.end();
+  };
+  std::vector<SyncClip> all;
+  all.reserve(clips.size());
+  for (const LoopedClip* clip : clips) {
+    SyncClip& one = all.emplace_back(sync_clip(clip->clip, pattern.empty() ? "*" : pattern));
+    if (pattern.empty())
+      std::erase_if(one.markers, [&](const SyncMarker& marker) {
+        return !std::ranges::all_of(clips, [&](const LoopedClip* other) { return has(other->clip, marker.name); });
+      });
+  }
+  return all;
 }
 
 }  // namespace
@@ -238,9 +260,12 @@ std::unique_ptr<Operation> bound(const SpacePose& described, Binder& binder) {
     return nullptr;
   std::unique_ptr<Operation> operation;
   if (described.sync) {
-    std::vector<SyncClip> markers;
-    markers.reserve(clips.size());
-    for (const LoopedClip* clip : clips) markers.push_back(sync_clip(clip->clip, *described.sync));
+    std::vector<SyncClip> markers = marked(clips, *described.sync);
+    const bool names_some = !described.sync->empty() && *described.sync != "*";
+    if (names_some && std::ranges::all_of(markers, [](const SyncClip& clip) { return clip.markers.empty(); })) {
+      binder.fault({"space", "sync"}, "no event of its clips matches \"" + *described.sync + "\"");
+      return nullptr;
+    }
     const bool fits = binder.attempt({"space", "sync"}, [&] {
       operation =
           std::make_unique<SyncedSpace>(std::move(clips), binder.nodes(),

@@ -318,7 +318,7 @@ std::string parameters_table(const GraphDescription& graph) {
   Table table("parameters of the graph " + graph.name, {"name", ">starts as", ">half-life, s", "comes from"});
   for (const GraphParameter& parameter : graph.parameters) {
     const auto inputs = std::ranges::count(graph.inputs, parameter.name, &GraphInput::name);
-    const std::string from = parameter.curve ? "keys"
+    const std::string from = parameter.curve ? "keys or a track"
                              : inputs > 0    ? counted(static_cast<std::size_t>(inputs), "input")
                                              : "outside";
     table.row({parameter.name, parameter.curve ? "" : brief_text(parameter.start),

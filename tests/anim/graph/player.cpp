@@ -1,5 +1,7 @@
 #include "graph_support.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <limits>
 
 using namespace tweenfall;
@@ -237,6 +239,18 @@ TEST_CASE("events come from the clips that show, with how much of them shows, ea
   CHECK(names == std::vector<std::string>{"left", "breath", "right", "left", "breath", "right"});
   CHECK(all[1].weight == 0.75);
   CHECK(all[2].weight == 0.25);
+}
+
+TEST_CASE("a clip that started before its graph tells nothing from before, and the interval that it is in") {
+  std::vector<Clip> clips = {moving("walk", 4, LoopMode::repeat)};
+  clips[0].events = {{0.25, 0.25, "past", ""}, {0.3, 0.75, "over", ""}, {0.4, 0.45, "gone", ""}, {0.5, 0.5, "now", ""}};
+  GraphPlayer player(graph_of({.poses = {{"x", ClipPose{.clip = "walk", .at = -0.5}}}},
+                              std::make_shared<const std::vector<Clip>>(std::move(clips))));
+  std::string told;
+  for (const GraphEvent& event : player.events(-1, 1.6))
+    told += event.name + " " + std::to_string(static_cast<int>(event.kind)) + " at " + number_text(event.time) + "\n";
+  CHECK(told == "over 1 at 0\nnow 0 at 0\nover 2 at 0.25\n");
+  CHECK(player.events(0, 0.2).empty());
 }
 
 TEST_CASE("what lies below a graph shows where its clips do nothing") {

@@ -2,6 +2,8 @@
 
 #include <tweenfall/anim/marker_sync.h>
 
+#include <map>
+
 using namespace tweenfall;
 using namespace tweenfall::test;
 
@@ -211,12 +213,28 @@ TEST_CASE("clips in phase step together: their markers fall at the same times, e
   }
 }
 
+TEST_CASE("clips in phase without a pattern step together by the events that all of them share") {
+  std::vector<Clip> clips = *stepping_clips();
+  clips[1].events.insert(clips[1].events.begin() + 1, {0.3, 0.3, "whoosh", ""});
+  GraphPlayer player(graph_of(by_speed(""), std::make_shared<const std::vector<Clip>>(std::move(clips))));
+  player.set("speed", 2.5);
+  std::map<std::string, std::vector<double>> times;
+  for (const GraphEvent& event : player.events(-1, 8)) times[event.name].push_back(event.time);
+  CHECK(times["whoosh"].size() > 3);
+  for (const char* step : {"left", "right"}) {
+    REQUIRE(times[step].size() > 6);
+    for (std::size_t i = 0; i + 1 < times[step].size(); i += 2) CHECK(near(times[step][i], times[step][i + 1], 1e-9));
+  }
+}
+
 TEST_CASE("what is no space is refused with its place") {
   const auto told_of = [](const SpacePose& space) {
     std::string text;
-    for (const GraphFault& fault :
-         inspect({.parameters = {{.name = "v"}}, .poses = {{"s", space}, {"q", ClipPose{"walk", 0, 2}}}}, *limb(),
-                 *stepping_clips())) {
+    for (const GraphFault& fault : inspect({.parameters = {{.name = "v"}},
+                                   .poses = {{"s", space},
+                                             {"q", ClipPose{"walk", 0, 2}},
+                                             {"p", ClipPose{"walk", 0, 1, Loop{.mode = LoopMode::pingpong}}}}},
+                                           *limb(), *stepping_clips())) {
       for (const std::string& part : fault.place) text += "/" + part;
       text += ": " + fault.message + "\n";
     }
@@ -230,4 +248,8 @@ TEST_CASE("what is no space is refused with its place") {
             .find("/poses/s/space/poses/1: there is no pose") == 0);
   CHECK(told_of({.by = {v}, .entries = {{"walk", {1, 0}}, {"q", {2, 0}}}, .sync = ""})
             .find("/poses/s/space/poses/1: only clips") == 0);
+  CHECK(told_of({.by = {v}, .entries = {{"walk", {1, 0}}, {"p", {2, 0}}}, .sync = ""})
+            .find("/poses/s/space/poses/1: clips in phase go around without end") == 0);
+  CHECK(told_of({.by = {v}, .entries = {{"walk", {1, 0}}, {"run", {2, 0}}}, .sync = "zz*"})
+            .find("/poses/s/space/sync: no event of its clips matches \"zz*\"") == 0);
 }

@@ -290,6 +290,16 @@ TEST_CASE("a way is not asked of a clip that does not fit its nodes; the clip is
   CHECK(faults[0].message.starts_with("the clip does not fit its nodes:"));
 }
 
+TEST_CASE("a way is not asked of what lies below the graph, whose loops are not known there") {
+  for (const RootMotionPose& described : {RootMotionPose{.node = "root", .accumulates = true},
+                                          RootMotionPose{.base = "rest", .node = "root", .accumulates = true}}) {
+    const std::vector<GraphFault> faults =
+        inspect({.poses = {{"rest", RestPose{}}, {"way", described}}}, *limb(), *walkers());
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].place == std::vector<std::string>{"poses", "way", "root_motion", "accumulate"});
+  }
+}
+
 TEST_CASE("blended walkers of any lengths drift no more in ten thousand laps than in one, asked for in any order") {
   const std::vector<GraphParameter> pace = {{.name = "speed", .start = 0.25}};
   const SpacePose space{.by = {ByParameter{"speed"}}, .entries = {{"walk", {0, 0}}, {"run", {1, 0}}}};

@@ -31,8 +31,8 @@ namespace tweenfall {
 /// A parameter: a number from outside. Conditions test the value set; poses see a value that follows it by `half_life`.
 struct GraphParameter {
   std::string name;
-  double start = 0;                      ///< its value until it is set
-  double half_life = 0;                  ///< s in which poses come half way to a newly set value; 0: at once
+  double start = 0;      ///< its value until it is set
+  double half_life = 0;  ///< of the `SpringDecay` by which poses follow a newly set value, s; 0: at once
   std::optional<Curve<double>> curve{};  ///< its value over the graph's time; then it cannot be set
 };
 
@@ -88,8 +88,8 @@ struct SpacePose {
   };
   std::vector<GraphNumber> by;  ///< one or two
   std::vector<Entry> entries;   ///< `most_blended` at most
-  /// If all entries are clips, makes them loop in phase, as by `MarkerSync`: a pattern for the events that are markers.
-  /// Without any such event: in phase by the shares of their loops.
+  /// If all entries are clips, makes them loop in phase, as by `MarkerSync`: a pattern for the events that are markers;
+  /// empty: those whose names all clips with events share and, without any, in phase by the shares of their loops.
   std::optional<std::string> sync{};
   bool bands = false;  ///< on a plane: weights by gradient bands, not by triangles
 };
@@ -115,7 +115,7 @@ struct GraphChange {
   enum class Kind {
     fade,        ///< both run, one fading into the other over `seconds`; 0: a cut
     quintic,     ///< the old one stops; the difference decays within `seconds`, as `QuinticDecay`
-    half_life,   ///< ... as `SpringDecay`, with half of it left after `seconds` from rest
+    half_life,   ///< ... as `SpringDecay` of that half-life
     dead_blend,  ///< the old one continues at its last velocity while it fades into the new one
   };
   Kind kind = Kind::fade;

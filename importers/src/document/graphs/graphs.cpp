@@ -25,11 +25,12 @@ const Table<GraphParameter>& parameter_table() {
   };
   const auto track = [](const json::Value&, GraphParameter&, Building&) {};  // it is read with its clip
   static const Table<GraphParameter> table(
-      "a parameter", {{"start", setting_form, "until it is set", {start, "0"}},
-                      {"half_life", &ValueForms::not_negative, "seconds in which poses come half way to what was set",
-                       fields::member<GraphParameter>(&GraphParameter::half_life)},
-                      {"track", &ValueForms::name, "of numbers, which it follows from the graph's start on", {track}},
-                      {"clip", &ValueForms::name, "of the track; absent: the only one that has it", {track}}});
+      "a parameter",
+      {{"start", setting_form, "until it is set", {start, "0"}},
+       {"half_life", &ValueForms::not_negative, "of the critically damped spring by which poses follow what was set, s",
+        fields::member<GraphParameter>(&GraphParameter::half_life)},
+       {"track", &ValueForms::name, "of numbers, which it follows from the graph's start on", {track}},
+       {"clip", &ValueForms::name, "of the track; absent: the only one that has it", {track}}});
   return table;
 }
 

@@ -125,7 +125,10 @@ OperationWord rest_word() {
 }
 
 OperationWord blend_word() {
-  return {{{"blend", blend_form, "several poses, by weights of which the ratios matter", {read_blend}}}};
+  return {{{"blend",
+            blend_form,
+            "several poses, by weights of which the ratios matter; the pose below makes up for what a sum lacks to 0.1",
+            {read_blend}}}};
 }
 
 OperationWord layers_word() {

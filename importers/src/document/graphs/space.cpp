@@ -66,11 +66,12 @@ const Table<SpacePose>& space_table() {
     space.sync = value.is(json::Value::Kind::text) ? std::string(value.text()) : std::string();
   };
   static const Table<SpacePose> table(
-      "a blend space", {{"bands", &ValueForms::boolean, "on a plane: weights by gradient bands, not by triangles",
-                         fields::member<SpacePose>(&SpacePose::bands)},
-                        {"by", by_form, "the parameter, or the two", {by}, true},
-                        {"poses", space_poses_form, "each with its place", {poses}, true},
-                        {"sync", sync_form, "the clips run in phase, by their markers where they have some", {sync}}});
+      "a blend space",
+      {{"bands", &ValueForms::boolean, "on a plane: weights by gradient bands, not by triangles",
+        fields::member<SpacePose>(&SpacePose::bands)},
+       {"by", by_form, "the parameter, or the two", {by}, true},
+       {"poses", space_poses_form, "each with its place", {poses}, true},
+       {"sync", sync_form, "the clips run in phase; true: by the events whose names all of them share", {sync}}});
   return table;
 }
 
