@@ -339,6 +339,19 @@ void World::Implementation::find_contacts_of_parts(const contacts::PairInContact
   }
 }
 
+void World::Implementation::find_pair_again(const pairs::Pair& pair, double h, contacts::FoundPart& part) const {
+  contacts::PairInContact one;
+  one.a = pair.first;
+  one.b = pair.second;
+  const collision::Passage &way_a = passages[one.a], &way_b = passages[one.b];
+  if (way_a.simple && way_b.simple)
+    find_contact(one, way_a, way_b, h, false, part);
+  else if (surfaces::surface_of(way_a.body->shape().solid) || surfaces::surface_of(way_b.body->shape().solid))
+    find_contacts_with_surface(one, {}, h, part);
+  else
+    find_contacts_of_parts(one, {}, h, part);
+}
+
 /// Prefetches what the pairs after the i-th will read.
 void World::Implementation::fetch_ahead(std::span<const pairs::Pair> pairs,
                                         std::span<const contacts::PairMemories> memories_of, std::size_t i) const {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "islands/small/part_of_step.h"
+#include "islands/small/retake.h"
 #include "state/world_state.h"
 #include "step/workspace.h"
 
@@ -99,6 +100,20 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void begin_part(const small::PartsOfStep& parts);
   void end_part(small::PartsOfStep& parts, std::span<contacts::ContactConstraint* const> near, double h);
   void solve_in_pieces(const islands::IslandContents& island, int pieces, double dt, step::Solver& solver);
+  /// Whether bodies of a small island that were solved have got deep into each other, in a way that no contact was
+  /// there for.
+  [[nodiscard]] bool has_sunk(const islands::IslandContents& island, double dt) const;
+  /// The same, in a part of the step. @param before  of the movable bodies, sorted by index
+  [[nodiscard]] bool has_sunk(const small::Retake& retake, std::span<const small::Before> before,
+                              std::span<const std::uint32_t> movable, double h) const;
+  [[nodiscard]] double depth_at_start(const pairs::Pair& pair) const;  ///< of the step, m
+  /// Moves the bodies of such an island through the step once more, from its start.
+  void take_again(const islands::IslandContents& island, double dt, step::Solver& solver);
+  /// @param shares  number of the solvers that this step has made ready
+  void take_again_where_sunk(const std::vector<islands::IslandContents>& all, std::size_t shares, double dt);
+  void take_part_again(small::Retake& retake, double h, int halvings, step::Solver& solver);
+  /// The contacts of two bodies where they are now, for a part of the step.
+  void find_pair_again(const pairs::Pair& pair, double h, contacts::FoundPart& part) const;
   void advance_bodies(double dt);
 
   // If other strategies than the defaults are asked for

@@ -444,7 +444,7 @@ void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
 
 void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
                    std::span<contacts::ContactConstraint* const> found, Springs springs, const WorldSettings& settings,
-                   double dt, std::vector<char>& moved, int sub_steps) {
+                   double dt, std::vector<char>& moved, int sub_steps, bool rough) {
   sub_steps_ = sub_steps;
   gather(bodies, found, springs, dt);
   contacts_.clear();
@@ -468,7 +468,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
   const Softness hard;
   const Softness soft = soft_contacts(settings.push_out_speed, dt, sub_steps_, parts_);
   // Between two bodies that wedge it, no push is enough.
-  extrapolating_ = extrapolates(bodies, springs) && !islands::is_wedged(found, bodies, soft.deep());
+  extrapolating_ = !rough && extrapolates(bodies, springs) && !islands::is_wedged(found, bodies, soft.deep());
   for (int sub_step = 0; sub_step < sub_steps_; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);
     for (SolvedContact& contact : contacts) {

@@ -48,9 +48,10 @@ class Solver {
   /// Moves those bodies of one island that `contacts` touch or `springs` hold by `dt`; fills in the contacts' impulses.
   /// @param springs  those too stiff to be part of the loads
   /// @param moved  by index: set for the bodies that were moved
+  /// @param rough  the usual passes are enough, also where a few more would find what rests to the last bit
   void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
              std::span<contacts::ContactConstraint* const> contacts, Springs springs, const WorldSettings& settings,
-             double dt, std::vector<char>& moved, int sub_steps = usual_sub_steps);
+             double dt, std::vector<char>& moved, int sub_steps = usual_sub_steps, bool rough = false);
   /// Lets the bodies of a small island strike each other where they touch and close noticeably: the hardest
   /// blow first, each between two bodies alone (equal blows all at once), until none is left. Momentum is kept, and
   /// energy never grows; at restitution 1 without friction it is kept.

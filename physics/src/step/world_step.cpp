@@ -258,6 +258,7 @@ void World::Implementation::solve_islands(double dt) {
     for (std::size_t i = next.fetch_add(1); i < all.size(); i = next.fetch_add(1)) solve(i, solvers[share], {});
     for (step::Batch& batch : solvers[share].batches) solvers[share].solve(batch, bodies, loads, settings, dt, moved);
   });
+  take_again_where_sunk(all, shares, dt);
   // Without bodies that may be led there is nothing that squeezes.
   if (!lingering.empty())
     for (const islands::IslandContents& island : all)

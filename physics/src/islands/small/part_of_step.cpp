@@ -52,8 +52,8 @@ PartsOfStep::Sum& PartsOfStep::sum_of(const ContactConstraint& contact) {
   return sums_[static_cast<std::size_t>(std::find(contacts_.begin(), contacts_.end(), &contact) - contacts_.begin())];
 }
 
-void PartsOfStep::add(const ContactConstraint& contact) {
-  Sum& sum = sum_of(contact);
+void PartsOfStep::add(const ContactConstraint& told, const ContactConstraint& contact) {
+  Sum& sum = sum_of(told);
   for (int i = 0; i < contact.count; ++i) {
     const PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
     sum.normal += point.total_normal;

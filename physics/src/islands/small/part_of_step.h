@@ -27,7 +27,9 @@ class PartsOfStep {
   /// Contacts found for the present part, in the island's order.
   std::vector<contacts::ContactConstraint*> near;
   /// Adds the result of the last solution of a contact.
-  void add(const contacts::ContactConstraint& contact);
+  void add(const contacts::ContactConstraint& contact) { add(contact, contact); }
+  /// The same, reported by a contact of the island.
+  void add(const contacts::ContactConstraint& told, const contacts::ContactConstraint& solved);
   void add(const contacts::ContactConstraint& contact, const Vec3& impulse, double normal, double approach);
   /// Reports everything as if it had happened in one step.
   void finish(double dt);
