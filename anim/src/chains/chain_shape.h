@@ -33,6 +33,11 @@ class ChainShape {
   [[nodiscard]] Arrow inside(std::size_t i, const Arrow& a) const noexcept { return inverse(outer_[i]) * a; }
   [[nodiscard]] Arrow outside(std::size_t i, const Arrow& a) const noexcept { return outer_[i] * a; }
 
+  /// The rotation from the axes of the joint before, or from the common space, to those of the joint's rest pose.
+  [[nodiscard]] Turning before(std::size_t i) const noexcept { return between_[i] * fixed_[i]; }
+  /// From a joint to the next, in its own axes.
+  [[nodiscard]] const Arrow& arm(std::size_t i) const noexcept { return bone_[i]; }
+
   /// Turns one joint and moves nothing; `place` follows.
   void turn(std::size_t i, const Turning& turn) noexcept { turn_[i] = turn; }
   /// Places only joint `i`, and the next one's axes and position.

@@ -3,11 +3,14 @@
 #include <limits>
 #include <utility>
 
+#include "chains/chain_search.h"
 #include "chains/chain_solve.h"
+#include "chains/drawn.h"
 
-// Why nothing flips: every step is a continuous function of the pose and the target, and so is a sequence of steps.
+// Why steps do not flip: each is a continuous function of the pose and the target, and so is a sequence of them.
 // Methods that are not continuous are avoided: undoing a step that did not help, keeping the better of two results,
-// locking joints that have met a limit.
+// locking joints that have met a limit. Only where the steps do not lead to the target, a chain that may leap is
+// searched for (chain_search.h).
 
 namespace tweenfall::chains {
 namespace {
@@ -117,15 +120,6 @@ Arrow pull_of(const Ways& ways, const Dual& damping, const Arrow& missing) noexc
   return pull;
 }
 
-// A number from 0 to 1, the same for the same place among all that are drawn, and independent of the others.
-// Source: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014.
-double drawn(std::uint64_t place) noexcept {
-  std::uint64_t z = (place + 1) * 0x9e3779b97f4a7c15;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
 class LimitedSolve {
  public:
   LimitedSolve(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept;
@@ -135,8 +129,8 @@ class LimitedSolve {
  private:
   void move_off() noexcept;
   void search() noexcept;
-  void carry_on(const Dual& before, Turning (&last)[ChainShape::room]) noexcept;
-  void track(bool patiently) noexcept;
+  enum class Steps { all, some, glance };
+  void track(Steps steps) noexcept;
   double step(const Arrow& target) noexcept;
   void start_over(int number) noexcept;
   void glance_from(int number) noexcept;
@@ -217,46 +211,23 @@ void LimitedSolve::move_off() noexcept {
   bend(target_, shape_);
 }
 
-// Goes on as far again as the last step led, or less, the nearer that brought the end: steps that lead straight to the
-// target need none of it, and those that creep toward the nearest that can be reached become ten times as fast. Only
-// for chains that may leap: where two branches part, a few hundred slow steps lead close targets to close results, but
-// fast ones to either branch.
-// Source: Nesterov, "A method for solving the convex programming problem with convergence rate O(1/k^2)", 1983.
-void LimitedSolve::carry_on(const Dual& before, Turning (&last)[ChainShape::room]) noexcept {
-  constexpr double most = 0.9;
-  const Dual ratio = distance() / before, square = ratio.v > 1 ? Dual(1) : ratio * ratio;
-  const Dual share = most * (square * square);
-  for (std::size_t i = 0; i < count_; ++i) {
-    const Turning turn = shape_.turn(i);
-    const Arrow way = log_turn(turn * inverse(last[i]));
-    shape_.turn(i, turned_by(shape_.joint(i), turn, share * way));
-    last[i] = turn;
-  }
-  shape_.place();
-}
-
-// @param patiently  to the end; else only as long as it leads on by a tenth in four steps
-void LimitedSolve::track(bool patiently) noexcept {
-  constexpr int most = 300, glance = 4;
+// @param steps  to the end; a few, always as many; or only as long as they lead on by a tenth in four steps
+void LimitedSolve::track(Steps steps) noexcept {
+  constexpr int most = 300, few = 40, glance = 4;
   constexpr double still = 1e-14;  // rad
   const Arrow from = shape_.end();
   // Clamped to the reach of the chain: a farther target in the same direction has the same result.
   const Measured way = measured(target_ - shape_.at(0));
   const Arrow to = way.length.v > shape_.reach().v ? shape_.at(0) + shape_.reach() * way.unit : target_;
   for (int i = 1; i < chain_.sweeps(); ++i) step(from + Dual(static_cast<double>(i) / chain_.sweeps()) * (to - from));
-  Turning last[ChainShape::room];
-  for (std::size_t i = 0; i < count_; ++i) last[i] = shape_.turn(i);
-  Dual before = distance();
   double at_a_glance = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most; ++i) {
+  for (int i = 0; i < (steps == Steps::some ? few : most); ++i) {
     const Dual now = distance();
     const bool near = now.v <= there * shape_.reach().v;
-    if (!patiently && i % glance == 0) {
+    if (steps == Steps::glance && i % glance == 0) {
       if (now.v > 0.9 * at_a_glance && !arrived()) return;
       at_a_glance = now.v;
     }
-    if (!near && chain_.leaps()) carry_on(before, last);
-    before = now;
     if (step(target_) < still || near) return;
   }
 }
@@ -286,13 +257,18 @@ void LimitedSolve::start_over(int number) noexcept {
 void LimitedSolve::glance_from(int number) noexcept {
   start_over(number);
   bend(target_, shape_);
-  track(false);
+  track(Steps::glance);
 }
 
 void LimitedSolve::run() noexcept {
   move_off();
-  track(true);
-  if (chain_.leaps() && !arrived()) search();
+  const bool searches = chain_.leaps() && is_searchable(shape_);
+  track(searches ? Steps::some : Steps::all);
+  if (!chain_.leaps() || arrived()) return;
+  if (searches)
+    search_everywhere(target_, shape_);
+  else
+    search();
 }
 
 bool LimitedSolve::go_on(const ChainShape& home, const Dual& share, bool searches) noexcept {
@@ -303,9 +279,18 @@ bool LimitedSolve::go_on(const ChainShape& home, const Dual& share, bool searche
   }
   shape_.place();
   bend(target_, shape_);
-  track(true);
-  if (chain_.leaps() && searches && !arrived()) search();
-  return arrived();
+  const bool descends = chain_.leaps() && is_searchable(shape_);
+  track(descends ? Steps::some : Steps::all);
+  if (!chain_.leaps() || arrived()) return arrived();
+  if (!descends) {
+    if (searches) search();
+    return arrived();
+  }
+  // What is nearest to where it is may be at the target but for a hair: no reason to leap.
+  constexpr double hair = 1e-6;  // of the chain's length
+  descend(target_, shape_);
+  if (searches && distance().v > hair * shape_.reach().v) search_from_here(target_, shape_);
+  return distance().v <= hair * shape_.reach().v;
 }
 
 void LimitedSolve::search() noexcept {
@@ -322,7 +307,7 @@ void LimitedSolve::search() noexcept {
   for (int number = 0; number < (missed < little * reach ? many : some); ++number) {
     glance_from(number);
     // Where the end comes to its farthest, or to its nearest, the last bit takes many steps.
-    if (!arrived() && distance().v < 0.1 * little * reach) track(true);
+    if (!arrived() && distance().v < 0.1 * little * reach) track(Steps::all);
     if (arrived()) return;
     missed = std::min(missed, distance().v);
     std::pair<double, int> next(distance().v, number);
@@ -332,7 +317,7 @@ void LimitedSolve::search() noexcept {
   }
   for (std::size_t i = 0; i < count; ++i) {
     glance_from(promising[i].second);
-    track(true);
+    track(Steps::all);
     if (distance().v > least - matters * reach) continue;
     nearest = shape_;
     least = distance().v;

@@ -5,29 +5,12 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// By how much a rotation turns about a unit axis, -pi to pi.
-Dual twist_about(const Vec3& axis, const Turning& turn) noexcept {
-  const Quat& q = turn.v;
-  // q' = w q / 2
-  const double along = q.vec().dot(axis), along_rate = 0.5 * (q.w() * turn.w + turn.w.cross(q.vec())).dot(axis);
-  const double rest_rate = -0.5 * turn.w.dot(q.vec());
-  Dual angle = Dual(2) * angle_of({along, along_rate}, {q.w(), rest_rate});
-  if (angle.v > pi) angle.v -= 2 * pi;
-  if (angle.v < -pi) angle.v += 2 * pi;
-  return angle;
-}
-
 // The nearest angle of the range, around the circle.
 Dual within(const Dual& angle, double low, double high) noexcept {
   if (angle.v >= low && angle.v <= high) return angle;
   const double over = angle.v > high ? angle.v - high : angle.v + 2 * pi - high;
   const double under = angle.v < low ? low - angle.v : low + 2 * pi - angle.v;
   return over <= under ? Dual(high) : Dual(low);
-}
-
-Turning about(const Vec3& axis, const Dual& angle) noexcept {
-  const elementary::SinCos half = elementary::sin_cos(0.5 * angle.v);
-  return {Quat(half.cos, half.sin * axis.x(), half.sin * axis.y(), half.sin * axis.z()), angle.d * axis};
 }
 
 Turning within_cone(const JointChain::Joint& joint, const ConeLimit& cone, const Turning& turn) noexcept {
@@ -49,6 +32,22 @@ Turning within_cone(const JointChain::Joint& joint, const ConeLimit& cone, const
 }
 
 }  // namespace
+
+Dual twist_about(const Vec3& axis, const Turning& turn) noexcept {
+  const Quat& q = turn.v;
+  // q' = w q / 2
+  const double along = q.vec().dot(axis), along_rate = 0.5 * (q.w() * turn.w + turn.w.cross(q.vec())).dot(axis);
+  const double rest_rate = -0.5 * turn.w.dot(q.vec());
+  Dual angle = Dual(2) * angle_of({along, along_rate}, {q.w(), rest_rate});
+  if (angle.v > pi) angle.v -= 2 * pi;
+  if (angle.v < -pi) angle.v += 2 * pi;
+  return angle;
+}
+
+Turning about(const Vec3& axis, const Dual& angle) noexcept {
+  const elementary::SinCos half = elementary::sin_cos(0.5 * angle.v);
+  return {Quat(half.cos, half.sin * axis.x(), half.sin * axis.y(), half.sin * axis.z()), angle.d * axis};
+}
 
 Turning within_limits(const JointChain::Joint& joint, const Turning& turn) noexcept {
   if (const auto* hinge = std::get_if<HingeLimit>(&joint.limit))

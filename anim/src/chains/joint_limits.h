@@ -8,6 +8,12 @@
 
 namespace tweenfall::chains {
 
+/// By how much a rotation turns about a unit axis, -pi to pi.
+[[nodiscard]] Dual twist_about(const Vec3& axis, const Turning& turn) noexcept;
+
+/// The rotation about a unit axis that does not move.
+[[nodiscard]] Turning about(const Vec3& axis, const Dual& angle) noexcept;
+
 /// The nearest rotation that the limit allows. @param turn  from the joint's rest pose, in the axes of that
 [[nodiscard]] Turning within_limits(const JointChain::Joint& joint, const Turning& turn) noexcept;
 

@@ -11,8 +11,10 @@
 ///
 /// From pose to pose the joints go back toward the script, with a time constant of 0.2 s, as far as the target lets
 /// them: where that rests, they are as near to the script as they can be nearby, whatever the way there. Where the
-/// chain has `leaps` and its target is not reached, it leaps to a pose that reaches it or, if there is none, to the
-/// nearest; after a search in vain it searches again a quarter of a second later, for that takes long.
+/// chain has `leaps` and its target is not reached, it goes to the nearest pose downhill, and from there it searches:
+/// of the poses at the target that it finds from near by it leaps to the one that turns its joints least or, if there
+/// is none, to the nearest to the target. After a search in vain it searches again a quarter of a second later, for
+/// that takes a millisecond or two.
 
 #include <tweenfall/anim/joint_chain.h>
 

@@ -57,7 +57,7 @@ struct ReachPose {
   GraphPlace target = {};
   ChainMethod method = ChainMethod::fabrik;
   int sweeps = 8;
-  bool leaps = false;  ///< jump to targets that a chain with limits does not reach otherwise
+  bool leaps = true;  ///< jump to where a chain with limits is nearer to its target
   /// A chain with limits goes on from where it was, as `follow` does, 60 times a second, and every ten minutes from the
   /// last input or jump of what is below it begins anew: so no time takes longer to find than ten minutes of following.
   bool follows = false;

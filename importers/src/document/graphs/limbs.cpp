@@ -178,7 +178,8 @@ const Table<ReachPose>& reach_table() {
                                          &Pose::method),
        {"sweeps", bounded("a whole number from 0 to 1000", 0, false, 1000, true), "of the method",
         member<Pose>(&Pose::sweeps)},
-       {"leaps", &ValueForms::boolean, "may jump to wherever it is nearer to its target", member<Pose>(&Pose::leaps)},
+       {"leaps", &ValueForms::boolean, "with limits: jumps to wherever it is nearer to its target; true by default",
+        member<Pose>(&Pose::leaps)},
        {"follows", &ValueForms::boolean, "with limits: goes on from where it was, so that it leaps only where it must",
         member<Pose>(&Pose::follows)},
        weight_row<Pose>()});
