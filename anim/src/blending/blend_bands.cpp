@@ -12,8 +12,8 @@ namespace tweenfall {
 namespace blending {
 namespace {
 
-bool is_less(const Sample<double>& a, const Sample<double>& b, Side side) noexcept {
-  return heading({b.value - a.value, b.rate - a.rate, b.acceleration - a.acceleration}, side) > 0;
+bool is_less(const Sample<double>& a, const Sample<double>& b, const Sample<Vec2>& at, Side side) noexcept {
+  return heading(without_rounding({b.value - a.value, b.rate - a.rate, b.acceleration - a.acceleration}, at), side) > 0;
 }
 
 }  // namespace
@@ -31,27 +31,30 @@ BlendBands::BlendBands(std::vector<Vec2> places) : places_(std::move(places)) {
 }
 
 void BlendBands::weights(const Sample<Vec2>& parameter, std::span<Sample<double>> weights, Side side) const noexcept {
-  const Vec2 at = blending::PlaneFrame{center_, size_}.scaled(parameter.value);
-  const Vec2 rate = parameter.rate / size_, acceleration = parameter.acceleration / size_;
+  const Sample<Vec2> at{blending::PlaneFrame{center_, size_}.scaled(parameter.value), parameter.rate / size_,
+                        parameter.acceleration / size_};
   Sample<double> sum{0, 0, 0};
   std::size_t nearest = 0;
   double greatest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scaled_places_.size(); ++i) {
     Sample<double>& least = weights[i];
     least = {1, 0, 0};
-    const Vec2 from = at - scaled_places_[i];
+    const Vec2 from = at.value - scaled_places_[i];
     for (std::size_t j = 0; j < scaled_places_.size(); ++j) {
       if (j == i) continue;
       const Vec2 way = scaled_places_[j] - scaled_places_[i];
       const double length = way.squaredNorm();
-      const Sample<double> band{1 - from.dot(way) / length, -rate.dot(way) / length, -acceleration.dot(way) / length};
-      if (blending::is_less(band, least, side)) least = band;
+      const Sample<double> band{1 - from.dot(way) / length, -at.rate.dot(way) / length,
+                                -at.acceleration.dot(way) / length};
+      if (blending::is_less(band, least, at, side)) least = band;
     }
     if (least.value > greatest) {
       greatest = least.value;
       nearest = i;
     }
-    if (blending::heading(least, side) <= 0) least = {0, 0, 0};
+    const Sample<double> clear = blending::without_rounding(least, at);
+    if (blending::heading(clear, side) <= 0) least = {0, 0, 0};
+    if (clear.value == 0) least.value = 0;
     sum.value += least.value;
     sum.rate += least.rate;
     sum.acceleration += least.acceleration;

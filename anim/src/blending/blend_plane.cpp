@@ -93,19 +93,20 @@ void BlendPlane::weights(const Sample<Vec2>& parameter, std::span<Sample<double>
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t a = border_[i], b = border_[i + 1 < count ? i + 1 : 0];
     const Sample<double> turn = blending::moving_turn(scaled_places_, a, b, at);
-    if (heading(turn, side) >= 0) continue;
+    if (heading(blending::without_rounding(turn, at), side) >= 0) continue;
     outside = true;
     const Vec2 along = scaled_places_[b] - scaled_places_[a], from = at.value - scaled_places_[a];
     const double length = along.squaredNorm();
     const Sample<double> share{along.dot(from) / length, along.dot(at.rate) / length,
                                along.dot(at.acceleration) / length};
-    if (heading(share, side) < 0 || heading({1 - share.value, -share.rate, -share.acceleration}, side) < 0) continue;
+    const Sample<double> rest{1 - share.value, -share.rate, -share.acceleration};
+    if (heading(share, side) < 0 || heading(rest, side) < 0) continue;
     const double distance = -turn.value / std::sqrt(length);
     if (!(distance < nearest)) continue;
     if (std::isfinite(nearest)) std::ranges::fill(weights, Sample<double>{0, 0, 0});
     nearest = distance;
     weights[b] = share;
-    weights[a] = {1 - share.value, -share.rate, -share.acceleration};
+    weights[a] = rest;
   }
   if (std::isfinite(nearest)) return;
   if (outside) {
@@ -119,7 +120,9 @@ void BlendPlane::weights(const Sample<Vec2>& parameter, std::span<Sample<double>
   double least_outside = -std::numeric_limits<double>::infinity();
   for (const blending::Triangle& triangle : triangles_) {
     const auto turns = blending::turns_in(scaled_places_, triangle, at);
-    if (std::ranges::all_of(turns, [side](const Sample<double>& turn) { return heading(turn, side) >= 0; })) {
+    if (std::ranges::all_of(turns, [&](const Sample<double>& turn) {
+          return heading(blending::without_rounding(turn, at), side) >= 0;
+        })) {
       best = &triangle;
       break;
     }

@@ -67,11 +67,12 @@ RoundErrors LaterRounds::errors(std::span<const Motion> wanted, std::span<const 
     joint.growth.count += 1;
     joints_[node] = joint;
     joint.first.lengthen(arm_ * joint.stretch);
-    for (int axis = 0; axis < 3; ++axis) {
-      const Growing error = error_at(joint, joint.wanted.origin + arm_ * joint.wanted.axes.col(axis),
-                                     joint.found.origin + arm_ * joint.found.axes.col(axis));
-      largest.include({.later = error.first, .growth = error.growth});
-    }
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double arm : {-arm_, arm_}) {
+        const Growing error = error_at(joint, joint.wanted.origin + arm * joint.wanted.axes.col(axis),
+                                       joint.found.origin + arm * joint.found.axes.col(axis));
+        largest.include({.later = error.first, .growth = error.growth});
+      }
   }
   return largest;
 }

@@ -158,12 +158,13 @@ class Measuring::Comparison {
     RoundErrors errors;
     if (later_) errors = later_->errors(wanted_, found_);
     for (std::size_t node = 0; node < wanted_.size(); ++node)
-      for (int axis = 0; axis < 3; ++axis) {
-        const Vec3 tip = arm_ * Vec3::Unit(axis);
-        const double error = (wanted_frames_[node].point(tip) - found_frames_[node].point(tip)).norm();
-        if (std::isnan(error)) return {infinite, infinite, infinite};
-        errors.first = std::max(errors.first, error);
-      }
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double arm : {-arm_, arm_}) {
+          const Vec3 tip = arm * Vec3::Unit(axis);
+          const double error = (wanted_frames_[node].point(tip) - found_frames_[node].point(tip)).norm();
+          if (std::isnan(error)) return {infinite, infinite, infinite};
+          errors.first = std::max(errors.first, error);
+        }
     if (!std::isfinite(errors.later + errors.growth)) return {infinite, infinite, infinite};
     errors = scaled(errors, between);
     errors.first += rounding_;

@@ -47,7 +47,9 @@ class FollowingChain : public Swing<ReachState> {
     go_to(state, time, sight, pose_at, scratch.first(pose.size()));
     const Sample<Vec3> target = target_.sample(sight.log, sight.at(time, sight.side), chain_.nodes(), pose);
     const double since = std::clamp(time - time_of(state.step), 0.0, 1 / steps_per_second);
-    chains::follow_from(chain_, target, since, weight, state.memory.turns, {}, state.memory.since_search, pose);
+    // Where it begins, no way there tells its rates.
+    const std::span<const Quat> turns(state.memory.turns.data(), since > 0 ? state.memory.turns.size() : 0);
+    chains::follow_from(chain_, target, since, weight, turns, {}, state.memory.since_search, pose);
   }
   void begin_again(ReachState& state, double time, const ClockSight& sight, const PoseAt& pose_at,
                    std::span<Motion> scratch, std::span<const Motion> before,
@@ -78,7 +80,8 @@ class FollowingChain : public Swing<ReachState> {
     advance(state, time, std::nullopt, sight, Side::out, room);
     state.step = step;
   }
-  /// To the last point of the grid up to `time`. Every ten minutes it begins anew, whoever asks for which times: so
+  /// To the last point of the grid before `time`: from there the way to it tells its rates, as which joints leave their
+  /// limits. Every ten minutes it begins anew, whoever asks for which times: so
   /// none takes longer to find than ten minutes of following.
   void go_to(ReachState& state, double time, const ClockSight& sight, const PoseAt& pose_at,
              std::span<Motion> room) const noexcept {
@@ -89,7 +92,7 @@ class FollowingChain : public Swing<ReachState> {
     constexpr auto steps_per_spell = static_cast<std::int64_t>(spell * steps_per_second);
     const std::int64_t first = static_cast<std::int64_t>(time / spell) * steps_per_spell;
     if (state.step < first) begin_at(state, first, time_of(first), sight, pose_at, room);
-    while (time_of(state.step + 1) <= time) {
+    while (time_of(state.step + 1) < time) {
       const double next = time_of(state.step + 1);
       pose_at(next, room);
       advance(state, next, 1 / steps_per_second, sight, Side::out, room);

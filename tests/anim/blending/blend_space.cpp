@@ -251,6 +251,39 @@ TEST_CASE("on a border between triangles, and on the hull, each side has its own
   }
 }
 
+TEST_CASE("from an entry toward another one, on any grid, rates are those of the side to which the parameter moves") {
+  Random random(21);
+  std::size_t planes = 0;
+  const auto check = [](const auto& space) {
+    constexpr double h = 1e-6;
+    for (const Vec2& here : space.places())
+      for (const Vec2& there : space.places())
+        for (const Side side : {Side::in, Side::out}) {
+          const Sample<Vec2> at{here, there - here, {0, 0}};
+          const double ahead = side == Side::out ? h : -h;
+          const auto now = weights_of(space, at, side);
+          const auto beside = weights_of(space, Sample<Vec2>{here + ahead * at.rate, at.rate, {0, 0}}, side);
+          for (std::size_t i = 0; i < now.size(); ++i)
+            CHECK(near(beside[i].value, now[i].value + ahead * now[i].rate, 1e-10));
+        }
+  };
+  for (int round = 0; round < 200; ++round) {
+    std::vector<Vec2> places;
+    while (places.size() < static_cast<std::size_t>(4 + round % 3)) {
+      const Vec2 place(std::floor(random.between(0, 4)), std::floor(random.between(0, 4)));
+      if (std::ranges::find(places, place) == places.end()) places.push_back(place);
+    }
+    check(BlendBands(places));
+    try {
+      check(BlendPlane(places));
+      ++planes;
+    } catch (const std::invalid_argument&) {
+      // All on one line, or an entry between two others.
+    }
+  }
+  CHECK(planes > 100);
+}
+
 TEST_CASE("weights of a blend plane do not jump anywhere along a way through it") {
   const BlendPlane plane(random_places(8, 25));
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

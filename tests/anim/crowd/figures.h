@@ -106,12 +106,13 @@ inline double distance(const Hierarchy& nodes, std::span<const Motion> exact, st
   nodes.world_motions(found, here);
   double farthest = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vec3 tip = arm * Vec3::Unit(axis);
-      const double apart = (there[i].point(tip) - here[i].point(tip)).norm();
-      farthest = apart <= farthest ? farthest : apart;
-      if (!(apart < 1e300)) return 1e300;
-    }
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {-arm, arm}) {
+        const Vec3 tip = side * Vec3::Unit(axis);
+        const double apart = (there[i].point(tip) - here[i].point(tip)).norm();
+        farthest = apart <= farthest ? farthest : apart;
+        if (!(apart < 1e300)) return 1e300;
+      }
   return farthest;
 }
 

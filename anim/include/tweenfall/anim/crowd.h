@@ -23,7 +23,8 @@ namespace tweenfall {
 struct CrowdSettings {
   /// How far a point may be from its place on the exact path, in the space of the figure, m; > 0.
   double tolerance = 1e-4;
-  /// The points measured lie this far from each joint along each axis, m; >= 0. Choose the size of attached things.
+  /// The points measured lie this far from each joint along each axis, both ways, m; >= 0. Choose the size of attached
+  /// things.
   double arm = 0.1;
   /// So many rounds of a loop with offset keep the tolerance, forwards or backwards; 1 to 100 million. What moves on
   /// from round to round makes the figure larger, or gets so far away that floats are coarse; then errors grow, as
