@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "blending/phase_course.h"
+#include "blending/rising_root.h"
 #include "blending/shares.h"
 
 namespace tweenfall {
@@ -189,17 +190,12 @@ double MarkerSync::phase_at(std::size_t clip, double time) const noexcept {
   if (around < stretches.front().time) around += track.duration;
   const auto after = std::ranges::upper_bound(stretches, around, {}, &Stretch::time);
   const std::size_t index = static_cast<std::size_t>(after - stretches.begin()) - 1;
-  double low = 0, high = 1, part = (around - stretches[index].time) / stretches[index].length;
-  for (int round = 0; round < 100; ++round) {
-    const Place at = place(stretches[index], part);
-    const double over = at.time - around;
-    if (over == 0) break;
-    (over > 0 ? high : low) = part;
-    double next = part - over / at.first;
-    if (!(next >= low && next <= high)) next = low + (high - low) / 2;
-    if (next == part) break;
-    part = next;
-  }
+  const Stretch& stretch = stretches[index];
+  const auto over = [&](double part) noexcept {
+    const Place at = place(stretch, part);
+    return blending::Rise{at.time - around, at.first};
+  };
+  const double part = blending::rising_root(over, 0, 1, (around - stretch.time) / stretch.length);
   const double phase = track.first + static_cast<double>(index) + part;
   return phase < period_ ? phase : phase - period_;
 }
@@ -255,11 +251,10 @@ double MarkerSync::advanced(double phase, double seconds, std::span<const double
   // Whole periods are taken out, and put back at the end.
   const double whole = this->seconds(weights);
   const double periods = std::floor(seconds / whole), rest = seconds - periods * whole;
-  if (!std::isfinite(periods)) return phase;  // loops too short to be counted
+  if (!std::isfinite(periods * period_)) return phase;  // loops too short to be counted
   const double start = phase - std::floor(phase / period_) * period_;
-  const auto gone = [&](double to, double& slope) noexcept {
-    double sum = 0;
-    slope = 0;
+  const auto over = [&](double to) noexcept {
+    double sum = 0, slope = 0;
     for (std::size_t i = 0; i < clips_.size(); ++i) {
       const double part = share(weights, sum_of_weights, i);
       if (part == 0) continue;
@@ -267,19 +262,9 @@ double MarkerSync::advanced(double phase, double seconds, std::span<const double
       sum += part * ((at.time - before.time) + (at.cycle - before.cycle) * clips_[i].duration);
       slope += part * at.first;
     }
-    return sum - rest;
+    return blending::Rise{sum - rest, slope};
   };
-  double slope = 0;
-  double low = start, high = start + period_, at = start;
-  for (int round = 0; round < 100; ++round) {
-    const double over = gone(at, slope);
-    if (over == 0) break;
-    (over > 0 ? high : low) = at;
-    double next = at - over / slope;
-    if (!(next >= low && next <= high)) next = low + (high - low) / 2;
-    if (next == at) break;
-    at = next;
-  }
+  const double at = blending::rising_root(over, start, start + period_, start);
   return phase + ((at - start) + periods * period_);
 }
 

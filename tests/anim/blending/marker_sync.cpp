@@ -22,6 +22,47 @@ double unwrapped(const MarkerSync& sync, std::size_t clip, double phase) {
   return at.time.value + at.cycle * gaits()[clip].duration;
 }
 
+// Runge-Kutta of order 4 for the time over the phase, in a thousand steps from one whole phase to the next.
+double finely_advanced(const MarkerSync& sync, double phase, double seconds, const std::vector<double>& from,
+                       const std::vector<double>& to) {
+  const double way = seconds > 0 ? 1 : -1;
+  double sum_from = 0, sum_to = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    sum_from += from[i];
+    sum_to += to[i];
+  }
+  std::vector<double> weights(from.size());
+  const auto pace = [&](double at, double time) {
+    for (std::size_t i = 0; i < from.size(); ++i)
+      weights[i] = from[i] / sum_from * (1 - time / seconds) + to[i] / sum_to * (time / seconds);
+    return 1 / sync.rate(at, weights);
+  };
+  double time = 0;
+  for (;;) {
+    const double marker = way > 0 ? std::floor(phase) + 1 : std::ceil(phase) - 1, begin = phase;
+    for (int k = 0; k < 1000; ++k) {
+      const auto after = [&](double h) {
+        const double a = pace(phase, time), b = pace(phase + h / 2, time + h / 2 * a),
+                     c = pace(phase + h / 2, time + h / 2 * b), d = pace(phase + h, time + h * c);
+        return time + h / 6 * (a + 2 * b + 2 * c + d);
+      };
+      const double next = begin + (marker - begin) * (k + 1) / 1000, whole = next - phase;
+      const double passed = after(whole);
+      if (way * passed >= way * seconds) {
+        double low = 0, high = 1;
+        for (int i = 0; i < 60; ++i) {
+          const double middle = (low + high) / 2;
+          (way * after(middle * whole) >= way * seconds ? high : low) = middle;
+        }
+        return phase + high * whole;
+      }
+      phase = next;
+      time = passed;
+    }
+    phase = marker;
+  }
+}
+
 }  // namespace
 
 TEST_CASE("at a whole phase every clip is at its marker of the same name") {
@@ -205,6 +246,21 @@ TEST_CASE("a fade between clips with markers is what a fine integration of the r
     for (int k = 0; k < 144; ++k) many = sync.advanced(many, seconds / 144, share(k / 144.0), share((k + 1) / 144.0));
     CHECK(near(sync.advanced(0.37, seconds, from, to), many, 1e-11));
   }
+}
+
+TEST_CASE("under steady weights each step is what a fine integration gives, and a step back undoes it") {
+  // Of strides so uneven that the pace of the phase changes fivefold between two steps.
+  const MarkerSync sync({{.duration = 1, .markers = {{0.14, "left"}, {0.96, "right"}}},
+                         {.duration = 0.55, .markers = {{0.04, "left"}, {0.14, "right"}}}});
+  const std::vector<double> weights{0.89, 0.32};
+  for (const double seconds : {0.384, 0.385, 0.386, 0.39, -0.2, 0.8})
+    CHECK(near(sync.advanced(0, seconds, weights), finely_advanced(sync, 0, seconds, weights, weights), 1e-10));
+  int lost = 0;
+  for (int step = 0; step < 20'000; ++step) {
+    const double phase = step * 1e-4, seconds = 0.385 - step * 3e-5;
+    lost += !near(sync.advanced(sync.advanced(phase, seconds, weights), -seconds, weights), phase, 1e-13);
+  }
+  CHECK(lost == 0);
 }
 
 TEST_CASE("clips without markers are played in shares of their loops") {
