@@ -3,11 +3,12 @@
 #include <tweenfall/curves/number_text.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 
-#include "blending/phase_course.h"
+#include "blending/linear_course.h"
 #include "blending/rising_root.h"
 #include "blending/shares.h"
 
@@ -182,6 +183,18 @@ double MarkerSync::slope(const Track& track, double phase) noexcept {
   return 6 * f * g * s.length + s.slope * g * (1 - 3 * f) + s.slope_end * f * (3 * f - 2);
 }
 
+blending::PiecePace MarkerSync::pace(const Track& track, double phase, double way) noexcept {
+  const double around = static_cast<double>(track.stretches.size());
+  const double marker = way > 0 ? std::floor(phase) : std::ceil(phase) - 1, counted = marker - track.first;
+  const double within = std::clamp(counted - std::floor(counted / around) * around, 0.0, around - 1);
+  const Stretch& s = track.stretches[static_cast<std::size_t>(within)];
+  if (s.slope == s.length && s.slope_end == s.length) return {s.length, 0, 0};
+  const double f = phase - marker, g = 1 - f;
+  const double square = 3 * (s.slope + s.slope_end) - 6 * s.length;
+  return {6 * f * g * s.length + s.slope * g * (1 - 3 * f) + s.slope_end * f * (3 * f - 2),
+          6 * s.length - 4 * s.slope - 2 * s.slope_end + 2 * square * f, square};
+}
+
 double MarkerSync::phase_at(std::size_t clip, double time) const noexcept {
   const Track& track = clips_[clip];
   const std::vector<Stretch>& stretches = track.stretches;
@@ -273,31 +286,30 @@ double MarkerSync::advanced(double phase, double seconds, std::span<const double
   if (std::ranges::equal(from, to)) return advanced(phase, seconds, from);
   if (seconds == 0 || !std::isfinite(seconds)) return phase;
   const double sum_from = blending::sum_of(from), sum_to = blending::sum_of(to);
-  const auto pace = [&](double time, double at) noexcept {
-    const double part = time / seconds;
-    double sum = 0;
+  const double way = seconds > 0 ? 1 : -1, around = way * period_;
+  const auto paces = [&](double at) noexcept {
+    std::array<blending::PiecePace, 2> result;
     for (std::size_t i = 0; i < clips_.size(); ++i) {
-      const double now = (1 - part) * share(from, sum_from, i) + part * share(to, sum_to, i);
-      if (now != 0) sum += now * place(clips_[i], at).first;
+      const blending::PiecePace own = pace(clips_[i], at, way);
+      result[0].add(share(from, sum_from, i) / seconds, own);
+      result[1].add(share(to, sum_to, i) / seconds, own);
     }
-    return sum;
+    return result;
   };
-  const blending::PhaseCourse course(pace, seconds);
   const double start = phase - std::floor(phase / period_) * period_;
-  const double around = seconds > 0 ? period_ : -period_;
-  blending::CoursePlace at = course.until({start, 0}, start + around);
+  blending::LinearPlace at = blending::along_course({start, 0}, start + around, way, paces);
   double periods = 0;
-  if (at.time != seconds) {
+  if (at.part < 1) {
     // The pace is linear in the time, so each period multiplies the time by one number and adds another: whole periods
     // are a geometric series.
     double exponent = 0;
     for (std::size_t i = 0; i < clips_.size(); ++i)
       exponent += (share(to, sum_to, i) - share(from, sum_from, i)) * in_period(i) / std::abs(seconds);
-    const double growth = std::expm1(exponent), first = at.time / seconds;
+    const double growth = std::expm1(exponent), first = at.part;
     periods = std::floor(growth == 0 ? 1 / first : std::log1p(growth / first) / exponent);
-    if (!std::isfinite(periods)) return phase;  // loops too short to be counted
+    if (!std::isfinite(periods * period_)) return phase;  // loops too short to be counted
     const double part = growth == 0 ? periods * first : first * (std::expm1(periods * exponent) / growth);
-    at = course.until({start, part * seconds}, start + around);
+    at = blending::along_course({start, part}, start + around, way, paces);
   }
   return phase + ((at.phase - start) + periods * around);
 }

@@ -263,6 +263,25 @@ TEST_CASE("under steady weights each step is what a fine integration gives, and 
   CHECK(lost == 0);
 }
 
+TEST_CASE("a fade of many strides is what a fine integration gives") {
+  const MarkerSync sync({{.duration = 0.17, .markers = {{0.02, "b"}, {0.089, "a"}, {0.135, "b"}, {0.164, "a"}}},
+                         {.duration = 0.31, .markers = {{0.13, "b"}, {0.286, "a"}}},
+                         {.duration = 1.24, .markers = {{0.006, "a"}, {0.435, "b"}}}});
+  const std::vector<double> from{0.905, 0.144, 0.037}, to{0.912, 0.97, 0.082};
+  for (const double phase : {0.0, 3.2010355750481163})
+    for (const double seconds : {7.910457380127097, -7.9, 0.5, 0.01})
+      CHECK(near(sync.advanced(phase, seconds, from, to), finely_advanced(sync, phase, seconds, from, to), 1e-11));
+  Random random(1);
+  const MarkerSync pair(
+      {{.duration = 1, .markers = {{0.1, "a"}, {0.6, "b"}}}, {.duration = 1.3, .markers = {{0.2, "a"}, {0.9, "b"}}}});
+  for (int i = 0; i < 40; ++i) {
+    const std::vector<double> first{random.between(0, 1), random.between(0, 1)},
+        last{random.between(0, 1), random.between(0, 1)};
+    const double phase = random.between(0, 2), seconds = random.between(-3, 3);
+    CHECK(near(pair.advanced(phase, seconds, first, last), finely_advanced(pair, phase, seconds, first, last), 1e-11));
+  }
+}
+
 TEST_CASE("clips without markers are played in shares of their loops") {
   const MarkerSync sync({{.duration = 2}, {.duration = 3}});
   CHECK(sync.period() == 1);

@@ -21,6 +21,10 @@
 
 namespace tweenfall {
 
+namespace blending {
+struct PiecePace;
+}
+
 struct SyncMarker {
   double time = 0;   ///< clip time, s; 0 to the clip's duration, whose end is its start
   std::string name;  ///< "left", "right"; all clips have the same names in the same order
@@ -95,6 +99,8 @@ class MarkerSync {
   [[nodiscard]] static Place place(const Track& track, double phase) noexcept;
   /// The first derivative alone, seconds per phase.
   [[nodiscard]] static double slope(const Track& track, double phase) noexcept;
+  /// The first derivative from a phase to the next marker, or to the one before where `way` is below 0.
+  [[nodiscard]] static blending::PiecePace pace(const Track& track, double phase, double way) noexcept;
   /// The part that a clip has of the weights, whose sum is `sum`.
   [[nodiscard]] double share(std::span<const double> weights, double sum, std::size_t clip) const noexcept;
   /// How far a clip comes in one period, s.
