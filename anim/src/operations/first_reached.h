@@ -23,4 +23,18 @@ template <class Reached>
   return std::bit_cast<double>(high);
 }
 
+/// The same, where it is likely to be near a guess: looked for in its neighborhood first.
+template <class Reached>
+[[nodiscard]] double first_reached(double before, double time, double guess, const Reached& reached) noexcept {
+  const auto low = std::bit_cast<std::uint64_t>(before), high = std::bit_cast<std::uint64_t>(time);
+  const auto near = std::bit_cast<std::uint64_t>(guess >= before && guess <= time ? guess : before);
+  for (std::uint64_t reach = 16; reach < std::uint64_t{1} << 40; reach *= 16) {
+    const std::uint64_t below = near - low > reach ? near - reach : low;
+    const std::uint64_t above = high - near > reach ? near + reach : high;
+    const double from = std::bit_cast<double>(below), to = std::bit_cast<double>(above);
+    if ((below == low || !reached(from)) && (above == high || reached(to))) return first_reached(from, to, reached);
+  }
+  return first_reached(before, time, reached);
+}
+
 }  // namespace tweenfall::graphs

@@ -1,6 +1,7 @@
 #include "operations/phase.h"
 
 #include "blending/phase_course.h"
+#include "blending/rising_root.h"
 #include "operations/first_reached.h"
 
 #include <algorithm>
@@ -242,6 +243,12 @@ Sample<double> Phase::at(const Log& log, const Moment& moment) const noexcept {
   return sync_.running(sync_.phase_at(0, 0), own);
 }
 
+double Phase::rounds(const Log& log, std::size_t clip, double duration, double start, double from,
+                     double to) const noexcept {
+  const double first = at(log, {from, Side::out, start}).value, last = at(log, {to, Side::out, start}).value;
+  return (way(clip, duration, last) - way(clip, duration, first)) / duration;
+}
+
 double Phase::way(std::size_t clip, double duration, double phase) const noexcept {
   const SyncedTime at = sync_.time(clip, {phase, 0, 0});
   return at.time.value + at.cycle * duration;
@@ -314,7 +321,13 @@ void Phase::each_event(const Log& log, std::span<const Clip* const> clips, doubl
           const double met = meeting.way + turn * duration;
           if (met > high || met < low || (met == low && !closed)) continue;
           const auto reached = [&](double time) { return !(way(clip, duration, step.at(time)) < met); };
-          const double time = met == low ? begin : first_reached(begin, end, reached);
+          const auto over = [&](double time) noexcept {
+            const SyncedTime at = sync_.time(clip, step.sample(time));
+            return blending::Rise{at.time.value + at.cycle * duration - met, at.time.rate};
+          };
+          const double even = begin + (end - begin) * ((met - low) / (high - low));
+          const double time =
+              met == low ? begin : first_reached(begin, end, blending::rising_root(over, begin, end, even), reached);
           more = visit(time, clip, *meeting.event, meeting.kind);
         }
       goes_on = goes_on && more;

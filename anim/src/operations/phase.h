@@ -57,6 +57,10 @@ class Phase {
   /// The phase, with its rate.
   [[nodiscard]] Sample<double> at(const Log& log, const Moment& moment) const noexcept;
 
+  /// How often a clip goes around between two times from `start` on.
+  [[nodiscard]] double rounds(const Log& log, std::size_t clip, double duration, double start, double from,
+                              double to) const noexcept;
+
   /// Calls `visit(time, clip, event, kind)` with the events of clips in (from, to], and at `start` where `from` is
   /// before it: those of each clip in order, but those of several clips only roughly. Where it returns false, only
   /// events of other clips that may be earlier follow.

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace tweenfall::graphs {
 
@@ -113,6 +114,7 @@ class SyncedSpace : public Operation {
 
   void events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const override {
     const Asked clips = asked([](const LoopedClip& each) { return &each.clip; });
+    require_countable(log, stretch);
     phase_.each_event(log, {clips.data(), clips_.size()}, stretch.start, stretch.from, stretch.to,
                       [&](double time, std::size_t i, const ClipEvent& event, GraphEvent::Kind kind) {
                         std::array<Sample<double>, most_blended> weights;
@@ -164,6 +166,25 @@ class SyncedSpace : public Operation {
     clock.started = true;
     clock.side = side;
     return clock;
+  }
+
+  /// @throws std::length_error
+  void require_countable(const Log& log, const Stretch& stretch) const {
+    constexpr double most_events = 1e6;
+    const double from = std::max(stretch.from, stretch.start);
+    if (!(stretch.to > from)) return;
+    double events = 0;
+    for (std::size_t i = 0; i < clips_.size(); ++i) {
+      const Clip& clip = clips_[i]->clip;
+      if (clip.events.empty()) continue;
+      const double rounds = phase_.rounds(log, i, clip.duration, stretch.start, from, stretch.to);
+      for (const ClipEvent& event : clip.events) events += event.is_interval() ? 2 * rounds : rounds;
+      if (events > most_events)
+        throw std::length_error("clip \"" + clip.name + "\", in phase, goes around every " +
+                                brief_text((stretch.to - from) / rounds) +
+                                " s and has more than a million events from " + number_text(stretch.from) + " s to " +
+                                number_text(stretch.to) + " s: lengthen its loop or leave out its events");
+    }
   }
 
   using Asked = std::array<const Clip*, most_blended>;

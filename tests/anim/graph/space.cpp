@@ -197,6 +197,25 @@ TEST_CASE("clips in phase that are too short to be seen take no time to be count
     for (const Motion& motion : pose_at(player, time)) CHECK(std::isfinite(motion.pose.position.x()));
 }
 
+TEST_CASE("clips in phase of a nanosecond have too many events to be told, and few are where they belong") {
+  std::vector<Clip> clips = {moving("walk", 4, LoopMode::repeat), moving("run", 5, LoopMode::repeat)};
+  clips[0].duration = 1e-9;
+  clips[1].duration = 3e-9;
+  clips[0].events = {{2.5e-10, 2.5e-10, "hit", ""}};
+  GraphPlayer player(graph_of(by_speed(""), std::make_shared<const std::vector<Clip>>(clips)));
+  player.set("speed", 2.5);
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(player.events(0, 0.005)),
+      "clip \"walk\", in phase, goes around every 2e-09 s and has more than a million events from 0 s to "
+      "0.005 s: lengthen its loop or leave out its events",
+      std::length_error);
+  // Both have half the weight, so that a round takes 2 ns.
+  const std::vector<GraphEvent> events = player.events(0.001, 0.0010002);
+  CHECK(events.size() == 100);
+  for (std::size_t i = 0; i < events.size(); ++i)
+    CHECK(near(events[i].time, 0.001 + 5e-10 + 2e-9 * static_cast<double>(i), 1e-15));
+}
+
 TEST_CASE("clips in phase step together: their markers fall at the same times, each told once") {
   GraphPlayer player(graph_of(by_speed("*"), stepping_clips()));
   player.set("speed", 2.5);
