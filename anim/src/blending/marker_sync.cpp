@@ -266,12 +266,16 @@ double MarkerSync::advanced(double phase, double seconds, std::span<const double
   const double periods = std::floor(seconds / whole), rest = seconds - periods * whole;
   if (!std::isfinite(periods * period_)) return phase;  // loops too short to be counted
   const double start = phase - std::floor(phase / period_) * period_;
+  // Where clips begin is looked up once, for as many as there usually are.
+  constexpr std::size_t few = 8;
+  std::array<Place, few> begun;
+  for (std::size_t i = 0; i < std::min(few, clips_.size()); ++i) begun[i] = place(clips_[i], start);
   const auto over = [&](double to) noexcept {
     double sum = 0, slope = 0;
     for (std::size_t i = 0; i < clips_.size(); ++i) {
       const double part = share(weights, sum_of_weights, i);
       if (part == 0) continue;
-      const Place at = place(clips_[i], to), before = place(clips_[i], start);
+      const Place at = place(clips_[i], to), before = i < few ? begun[i] : place(clips_[i], start);
       sum += part * ((at.time - before.time) + (at.cycle - before.cycle) * clips_[i].duration);
       slope += part * at.first;
     }
