@@ -125,7 +125,6 @@ struct Workspace {
   islands::ShiftedApart shifted_apart;
   std::vector<Solvers> solvers;  ///< one for each thread
   std::vector<std::uint32_t> islands_by_size;
-  std::vector<std::uint32_t> sunk;  ///< islands in which bodies have got deep into each other in this step
   std::vector<char> moved;          ///< by a solver in this step
   std::vector<char> by_strategies;  ///< by body: its island goes by its own strategies; empty if none does
   std::vector<contacts::ContactConstraint> struck;  ///< in this step, between bodies that have separated since

@@ -303,14 +303,14 @@ void World::Implementation::take_again(const islands::IslandContents& island, do
 
 void World::Implementation::take_again_where_sunk(const std::vector<islands::IslandContents>& all, std::size_t shares,
                                                   double dt) {
-  sunk.clear();
+  std::vector<std::uint32_t> deep;  // hardly ever any
   for (std::uint32_t i = 0; i < all.size(); ++i)
-    if (!goes_by_strategies(all[i]) && has_sunk(all[i], dt)) sunk.push_back(i);
-  if (sunk.empty()) return;
+    if (!goes_by_strategies(all[i]) && has_sunk(all[i], dt)) deep.push_back(i);
+  if (deep.empty()) return;
   std::atomic<std::size_t> next{0};
-  workers().parts(std::min(shares, sunk.size()), [&](std::size_t share) {
-    for (std::size_t i = next.fetch_add(1); i < sunk.size(); i = next.fetch_add(1))
-      take_again(all[sunk[i]], dt, solvers[share].few);
+  workers().parts(std::min(shares, deep.size()), [&](std::size_t share) {
+    for (std::size_t i = next.fetch_add(1); i < deep.size(); i = next.fetch_add(1))
+      take_again(all[deep[i]], dt, solvers[share].few);
   });
 }
 
