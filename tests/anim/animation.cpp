@@ -119,6 +119,7 @@ TEST_CASE("tracks that fit no node and tracks of the wrong type are all named") 
   Clip clip;
   clip.name = "wrong";
   clip.tracks = {{"nobody", "position", Curve<Vec3>(Vec3(0, 0, 0))}, {"hat", "rotation", Curve<double>(1.0)}};
+  CHECK_THROWS_WITH_AS(Animation(nullptr, {}, {}), "an animation needs nodes", std::invalid_argument);
   CHECK_THROWS_WITH_AS(Animation(arm(), {clip}, {}),
                        "clips do not fit their nodes:\n  clip \"wrong\": there is no node \"nobody\"\n"
                        "  clip \"wrong\": track \"hat.rotation\" must carry rotations",

@@ -142,6 +142,7 @@ std::string name_of(const Player& player, std::span<const Clip> clips) {
 
 Animation::Animation(std::shared_ptr<const Hierarchy> nodes, std::vector<Clip> clips, std::vector<Play> plays)
     : nodes_(std::move(nodes)), clips_(std::make_shared<const std::vector<Clip>>(std::move(clips))) {
+  if (!nodes_) throw std::invalid_argument("an animation needs nodes");
   std::string problems;
   std::vector<Player> players, alone;
   players.reserve(plays.size());

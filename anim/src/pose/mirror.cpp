@@ -48,7 +48,9 @@ struct Partners {
       return fault("\"" + pair.left + "\" and \"" + pair.right + "\" must have the same number of *");
     bool any = false;
     const auto meet_all = [&](const std::string& from, const std::string& to) {
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const std::optional<std::size_t> alone = stars_in(from) == 0 ? nodes.find(from) : std::nullopt;
+      const std::size_t end = alone ? *alone + 1 : stars_in(from) == 0 ? 0 : nodes.size();
+      for (std::size_t i = alone.value_or(0); i < end; ++i) {
         const std::optional<std::string> name = renamed(nodes[i].name, from, to);
         if (!name) continue;
         any = true;

@@ -42,7 +42,8 @@ class Animation {
   Animation& operator=(const Animation&) noexcept = default;
 
   /// Binds every track of every clip. A track of a property that is not ours is bound to nothing.
-  /// @throws std::invalid_argument naming all tracks whose node does not exist or whose curve has the wrong type.
+  /// @throws std::invalid_argument without nodes, or naming all tracks whose node does not exist or whose curve has the
+  /// wrong type.
   Animation(std::shared_ptr<const Hierarchy> nodes, std::vector<Clip> clips, std::vector<Play> plays);
 
   /// The same clips and plays over other nodes. @throws as the constructor.
