@@ -71,7 +71,9 @@ void World::Implementation::find_beyond(std::uint32_t index, std::span<contacts:
     follower.known = false;
     // Whether it was among the others may depend on a direction of earlier steps, but no result must.
     for (contacts::FoundPart& part : parts)
-      if (const auto known = std::ranges::find_if(part.followers, is_it); known != part.followers.end()) {
+      if (const auto known =
+              std::ranges::lower_bound(part.followers, pair, {}, [&](const auto& one) { return pair_of(one.link); });
+          known != part.followers.end() && is_it(*known)) {
         follower = *known;
         part.followers.erase(known);
       }

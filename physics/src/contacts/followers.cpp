@@ -25,8 +25,10 @@ constexpr std::size_t links_worth_a_part = 128;
 /// A blow that displaces a body in a step by less than this part of what is near enough for it is none.
 constexpr double hardly_moved = 0.25;
 
-/// A blow that displaces a body in a step by more than this part of its radius may send it where it had no pairs.
-constexpr double far_off = 0.25;
+/// A blow that displaces a body in a step by more than this part of its radius may send it where it had no pairs; so
+/// may one that displaces it by more than what is near enough, and this many times as far as it was going: by its own
+/// speed it was to follow nothing that far away.
+constexpr double far_off = 0.25, much_faster = 4;
 
 /// Two bodies may approach faster than blows along their normals tell, by this part of what these change: friction and
 /// turning bring it about.
@@ -54,7 +56,7 @@ class Blows {
     struck.most = struck.change.norm();
     struck.when = now_;
     spread_ = true;
-    if (struck.most * (dt_ - struck.time) > far_off * passages_[body].radius) hard_.push_back(body);
+    if (is_hard(struck, passages_[body]) && (hard_.empty() || hard_.back() != body)) hard_.push_back(body);
   }
   /// Bodies that were struck hard since the last call.
   [[nodiscard]] std::vector<std::uint32_t> struck_hard() { return std::exchange(hard_, {}); }
@@ -90,6 +92,11 @@ class Blows {
   }
 
  private:
+  [[nodiscard]] bool is_hard(const Struck& struck, const collision::Passage& passage) const {
+    const double way = struck.most * (dt_ - struck.time), own = much_faster * dt_;
+    return way > far_off * passage.radius ||
+           (way > near_enough_of(passage) && way * way > own * own * passage.course.linear.squaredNorm());
+  }
   /// Nothing comes before the first round.
   static std::uint64_t now_of(int round, std::size_t number) {
     return round == 0 ? 0 : (static_cast<std::uint64_t>(round) << 32) + number;

@@ -65,6 +65,10 @@ class Tumbling {
 /// Greatest number of pieces of a turn that is followed.
 constexpr double most_pieces = 64;
 
+/// Square of the sine of the angle between a spin and its momentum that is mere rounding: the body spins about a
+/// principal axis, and keeps it even if it is the middle one, about which rounding would grow into a tumble.
+constexpr double aligned = 1e-26;
+
 /// A momentum, reduced so that its energy is at most `energy`.
 Vec3 within_energy(const Tumbling& tumbling, double energy, const Vec3& momentum) {
   const double now = 0.5 * tumbling.angular(momentum).dot(momentum);
@@ -134,6 +138,13 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
   const Vec3 first = tumbling.angular(momentum);
   if (body.spherical() && steady) {
     Spin spin{start.rotation, start.rotation * first};
+    spin.rotation = exp_map(spin.angular * dt) * start.rotation;
+    spin.rotation.normalize();
+    return spin;
+  }
+  if (steady && momentum.cross(first).squaredNorm() <= aligned * momentum.squaredNorm() * first.squaredNorm()) {
+    const double size = start.angular.norm();
+    Spin spin{start.rotation, size > 0 ? Vec3(first.norm() / size * start.angular) : start.angular};
     spin.rotation = exp_map(spin.angular * dt) * start.rotation;
     spin.rotation.normalize();
     return spin;

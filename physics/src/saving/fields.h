@@ -142,22 +142,24 @@ void each_field(T& extra, const Visit& visit) {
 
 template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [alive, fixed, asleep, placed, has_target, led, saturated, squeezed, conveys, generation, drive, still_for,
-         center, twist, motion, work, filter, makeup, extra] = body;
+  auto& [alive, fixed, asleep, placed, has_target, led, saturated, squeezed, conveys, mirrored, generation, drive,
+         still_for, center, twist, motion, work, filter, makeup, extra] = body;
   visit(alive, generation);
   if (!alive) return;  // only its index and generation matter
   visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion);
   state::Work applied = work.value();
   visit(applied.force, applied.torque);
+  visit.rarely(applied.across[0], applied.across[1], applied.across[2]);
   if constexpr (!std::is_const_v<T>)
-    if (!state::blank(applied.force) || !state::blank(applied.torque)) work.own() = applied;
+    if (!state::blank(applied.force) || !state::blank(applied.torque) || !state::blank(applied.across))
+      work.own() = applied;
   state::Filter its = filter.value();
   visit(its.groups, its.collides_with);
   if constexpr (!std::is_const_v<T>) body.set_filter(its);
   visit(makeup, extra);
   visit.rarely(saturated);
   visit.rarely(squeezed);
-  follows_from_others(conveys);
+  follows_from_others(conveys, mirrored);
 }
 
 template <Is<PointMemory> T, class Visit>

@@ -20,7 +20,7 @@ namespace tweenfall {
 namespace saving {
 namespace {
 
-constexpr Envelope world_envelope{"world", 11};
+constexpr Envelope world_envelope{"world", 12};
 
 bool unit(const Quat& rotation) {
   return std::abs(rotation.norm() - 1) <= 1e-9;
@@ -56,6 +56,8 @@ void check(Body& body, state::Makeups& makeups) {
   state::require(body.force().allFinite() && body.torque().allFinite() && extra.reaction.allFinite(),
                  "its forces must be finite");
   state::require_amount(body.still_for, "time of stillness");
+  state::require(body.across() == Vec3::Zero() || std::abs(body.across().norm() - 1) <= 1e-12,
+                 "the normal of its plane must have length 1 or 0");
 }
 
 void check(const Stand& stand) {

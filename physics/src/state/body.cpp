@@ -8,11 +8,28 @@ Mat3 Body::world_inertia(const Quat& rotation) const {
   return axes * mass().inertia * axes.transpose();
 }
 
-Mat3 Body::world_inverse_inertia(const Quat& rotation) const {
-  if (spherical()) return inverse_inertia();
+namespace {
+
+Mat3 whole_inverse_inertia(const Body& body, const Quat& rotation) {
+  if (body.spherical()) return body.inverse_inertia();
   const Mat3 axes = rotation.toRotationMatrix();
-  if (aligned()) return axes * inverse_inertia().diagonal().asDiagonal() * axes.transpose();
-  return axes * inverse_inertia() * axes.transpose();
+  if (body.aligned()) return axes * body.inverse_inertia().diagonal().asDiagonal() * axes.transpose();
+  return axes * body.inverse_inertia() * axes.transpose();
+}
+
+/// Share of the turns out of a mirror that are left, so that the inertia has an inverse.
+constexpr double hardly = 1e-9;
+
+}  // namespace
+
+Mat3 Body::world_inverse_inertia(const Quat& rotation) const {
+  const Mat3 inverse = whole_inverse_inertia(*this, rotation);
+  if (mirrored == Mirrored::in_none || spherical()) return inverse;
+  if (mirrored == Mirrored::twice) return hardly * inverse;
+  const Vec3 normal = mirrored == Mirrored::askew
+                          ? across()
+                          : Vec3(Vec3::Unit(static_cast<int>(mirrored) - static_cast<int>(Mirrored::along_x)));
+  return hardly * inverse + normal.dot(inverse * normal) * normal * normal.transpose();
 }
 
 void Body::set_filter(const Filter& its) {

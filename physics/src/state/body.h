@@ -43,11 +43,15 @@ struct Extra {
   Twist surface_velocity;  ///< at the center of mass, node axes
 };
 
-/// What the caller applied for the next step.
+/// What the caller applied for the next step; and what only few bodies remember.
 struct Work {
   Vec3 force{0, 0, 0};   ///< N
   Vec3 torque{0, 0, 0};  ///< N m
+  Vec3 across{0, 0, 0};  ///< unit normal of a plane askew to the world's axes in which it was kept; 0: none
 };
+
+/// The planes in which all that a body touches is its own mirror image, and it with it: by their normals.
+enum class Mirrored : std::uint8_t { in_none, along_x, along_y, along_z, askew, twice };
 
 /// What a body may meet, as the caller last set it.
 struct Filter {
@@ -68,6 +72,7 @@ struct Body {
   bool saturated = false;   ///< its drive was at its limit in the last step
   bool squeezed = false;    ///< in the last step, bodies that are led threw it
   bool conveys = false;     ///< its surface moves
+  Mirrored mirrored{};      ///< within a step
   std::uint32_t generation = 0;
   Drive drive;
   double still_for = 0;  ///< s
@@ -106,8 +111,13 @@ struct Body {
 
   [[nodiscard]] const Vec3& force() const { return work.value().force; }
   [[nodiscard]] const Vec3& torque() const { return work.value().torque; }
+  /// The normal of the last plane askew to the world's axes in which it was kept; 0: none.
+  [[nodiscard]] const Vec3& across() const { return work.value().across; }
+  void set_across(const Vec3& normal) {
+    if (normal != across()) work.own().across = normal;
+  }
   void clear_work() {
-    if (work.has_value()) work.own() = {};
+    if (work.has_value()) work.own().force = work.own().torque = Vec3::Zero();
   }
 
   [[nodiscard]] bool immovable() const { return fixed || drive.owner() == Owner::keyed; }
@@ -130,6 +140,7 @@ struct Body {
            countable(twist.linear) && countable(twist.angular) && countable(motion.twist.linear);
   }
   [[nodiscard]] Mat3 world_inertia(const Quat& rotation) const;
+  /// Within a step, only for turns that do not lead out of its mirrors: each impulse comes with its mirror image.
   [[nodiscard]] Mat3 world_inverse_inertia(const Quat& rotation) const;
 
   /// How the surface moves relative to the body, at the center of mass, world axes.

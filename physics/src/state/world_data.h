@@ -88,6 +88,9 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void wake_forced(BodyId body);   ///< bodies on which a force of this body acts
   bool wake_islands();             ///< true when a sleeping body woke, so that its contacts must be found
   void solve_islands(double dt);
+  [[nodiscard]] islands::FreeStart free_start(std::uint32_t index) const {
+    return {starts[index].center, starts[index].rotation, starts[index].twist};
+  }
   /// In how many pieces an island goes through a step; nearly always one.
   [[nodiscard]] int pieces_of(const islands::IslandContents& island, double dt) const;
   /// Whether bodies of an island collide in a step so that one passes on to a third what it got from another.

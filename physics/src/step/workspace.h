@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "actors/soft/meetings/partners.h"
@@ -10,6 +11,7 @@
 #include "islands/blocks/block_solver.h"
 #include "islands/free_islands.h"
 #include "islands/island_contents.h"
+#include "islands/mirrored.h"
 #include "islands/shifted_apart.h"
 #include "islands/sprung/sprung_flight.h"
 #include "joints/joint_link.h"
@@ -78,7 +80,6 @@ struct ContactEnds {
 /// empty never changes one bit of the result, so copies do not take it along.
 struct Workspace {
   double part_count = 1;                 ///< length of the whole step divided by that of this one
-  bool fresh = true;                     ///< knows nothing of earlier steps: the next step looks at every body
   std::vector<std::uint32_t> noted;      ///< bodies that the caller changed or led, and those noted before them
   std::vector<char> is_noted;            ///< by body
   std::vector<std::uint32_t> watched;    ///< sorted: what a step looks at, everything but scenery at rest
@@ -122,6 +123,7 @@ struct Workspace {
   islands::Islands islands;
   islands::IslandSorter island_sorter;
   islands::FreeIslands free_islands;
+  std::unique_ptr<islands::MirroredIslands> mirrored_islands;  ///< within a step never null
   islands::ShiftedApart shifted_apart;
   std::vector<Solvers> solvers;  ///< one for each thread
   std::vector<std::uint32_t> islands_by_size;
@@ -132,6 +134,8 @@ struct Workspace {
   state::Makeups makeups;                           ///< of the bodies that were added last
   std::vector<soft::Place> soft_starts;             ///< by body, if there are soft bodies
   state::LazilyMade<queries::Scene> scene;          ///< of the bodies, between two changes
+  // Last, where it takes no room of its own.
+  bool fresh = true;  ///< knows nothing of earlier steps: the next step looks at every body
 
   void note(std::uint32_t body);  ///< the next step looks at this body
 };

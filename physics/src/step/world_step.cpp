@@ -185,6 +185,7 @@ void World::Implementation::solve_islands(double dt) {
   const std::vector<islands::IslandContents>& all =
       island_sorter.sort(bodies, islands, active, stiff_springs, links, work);
   if (all.empty()) return;
+  mirrored_islands->find(all, bodies, loads, dt);
   const std::size_t shares =
       active.size() + 4 * links.size() < step::worth_sharing ? 1 : std::min(work.threads(), all.size());
   if (solvers.size() < shares) solvers.resize(shares);
@@ -272,10 +273,7 @@ void World::Implementation::solve_islands(double dt) {
           by_strategies[contact->a] = by_strategies[contact->b] = 1;
   }
   free_islands.begin(bodies.size());
-  const auto start_of = [this](std::uint32_t index) -> islands::FreeStart {
-    const step::Start& start = starts[index];
-    return {start.center, start.rotation, start.twist};
-  };
+  const auto start_of = [this](std::uint32_t index) { return free_start(index); };
   for (const islands::IslandContents& island : all)
     if (!goes_by_strategies(island)) free_islands.keep(island, bodies, loads, moved, settings.integrator, dt, start_of);
   for (const islands::IslandContents& island : all)
@@ -289,6 +287,8 @@ void World::Implementation::solve_islands(double dt) {
 
 void World::Implementation::advance_bodies(double dt) {
   by_strategies.clear();
+  if (!mirrored_islands) mirrored_islands = std::make_unique<islands::MirroredIslands>();
+  mirrored_islands->begin(bodies.size());
   if (goes_by_impacts())
     solve_by_impacts(dt);
   else
@@ -455,6 +455,7 @@ void World::Implementation::step(double dt, double of_parts) {
   struct Stepping {
     Implementation& world;
     ~Stepping() {
+      if (world.mirrored_islands) world.mirrored_islands->end(world.bodies);
       world.stepping = false;
       world.scene.forget();
       world.told.forget();
@@ -489,6 +490,8 @@ void World::Implementation::step(double dt, double of_parts) {
     hold_before_surfaces();
     hold_before_walls(dt);
   }
+  mirrored_islands->keep(bodies, [this](std::uint32_t index) { return free_start(index); });
+  mirrored_islands->end(bodies);
   advance_softs(dt, dt * part_count);
   let_sleep(dt);
   report();

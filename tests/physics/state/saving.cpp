@@ -173,7 +173,7 @@ TEST_CASE("bytes that are no saved world are refused in words, and change nothin
   refused(bytes, "these bytes are no saved world: they do not begin with \"tweenfall world\"");
   bytes = good;
   put(bytes, 16, 8, 4);
-  refused(bytes, "this saved world is of version 8; only version 11 can be read");
+  refused(bytes, "this saved world is of version 8; only version 12 can be read");
   bytes = good;
   bytes.pop_back();
   refused(bytes, "a saved world should have " + std::to_string(good.size() - header) +
