@@ -3,14 +3,14 @@
 #include <limits>
 #include <utility>
 
-#include "chains/chain_search.h"
 #include "chains/chain_solve.h"
-#include "chains/drawn.h"
+#include "chains/search/chain_search.h"
+#include "chains/search/drawn.h"
 
 // Why steps do not flip: each is a continuous function of the pose and the target, and so is a sequence of them.
 // Methods that are not continuous are avoided: undoing a step that did not help, keeping the better of two results,
 // locking joints that have met a limit. Only where the steps do not lead to the target, a chain that may leap is
-// searched for (chain_search.h).
+// searched for (search/chain_search.h).
 
 namespace tweenfall::chains {
 namespace {

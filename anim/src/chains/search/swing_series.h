@@ -2,7 +2,7 @@
 
 // Rotations by a vector, and how they change with it, for plain numbers and for numbers with rates.
 
-#include "chains/plain_or_dual.h"
+#include "chains/search/plain_or_dual.h"
 
 namespace tweenfall::chains {
 

@@ -1,6 +1,6 @@
-#include "chains/chain_search.h"
+#include "chains/search/chain_search.h"
 
-#include "chains/limited_descent.h"
+#include "chains/search/limited_descent.h"
 
 #include <algorithm>
 #include <limits>

@@ -7,7 +7,7 @@
 // the target is out of reach: there, least squares would creep.
 
 #include "chains/chain_shape.h"
-#include "chains/plain_or_dual.h"
+#include "chains/search/plain_or_dual.h"
 
 namespace tweenfall::chains {
 

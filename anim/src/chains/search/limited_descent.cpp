@@ -1,7 +1,7 @@
-#include "chains/limited_descent.h"
+#include "chains/search/limited_descent.h"
 
-#include "chains/drawn.h"
-#include "chains/swing_series.h"
+#include "chains/search/drawn.h"
+#include "chains/search/swing_series.h"
 
 #include <algorithm>
 #include <numbers>

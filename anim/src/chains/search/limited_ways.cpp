@@ -1,4 +1,4 @@
-#include "chains/limited_descent.h"
+#include "chains/search/limited_descent.h"
 
 #include <algorithm>
 
