@@ -54,6 +54,22 @@ LimitedDescent<Number>::LimitedDescent(const ChainShape& shape, const Arrow& tar
   to_shape(home_);
 }
 
+// Brings the coordinates of a joint within its limits.
+template <class Number>
+void LimitedDescent<Number>::bound(const Joint& joint, Number* at) noexcept {
+  if (joint.kind == Kind::socket) {
+    const Number square = at[0] * at[0] + at[1] * at[1];
+    if (value_of(square) > joint.swing * joint.swing) {
+      const Number inside = joint.swing * reciprocal(root(square));
+      at[0] = inside * at[0];
+      at[1] = inside * at[1];
+    }
+  }
+  Number& last = at[joint.kind == Kind::hinge ? 0 : 2];
+  if (value_of(last) < joint.low) last = Number(joint.low);
+  if (value_of(last) > joint.high) last = Number(joint.high);
+}
+
 template <class Number>
 void LimitedDescent<Number>::to_shape(State& state) const noexcept {
   const auto number = [](const Dual& a) {
@@ -79,16 +95,8 @@ void LimitedDescent<Number>::to_shape(State& state) const noexcept {
       at[0] = number(dot(swing, Arrow{joint.across, Vec3(0, 0, 0)}));
       at[1] = number(dot(swing, Arrow{joint.beside, Vec3(0, 0, 0)}));
       at[2] = number(twist);
-      const Number square = at[0] * at[0] + at[1] * at[1];
-      if (value_of(square) > joint.swing * joint.swing) {
-        const Number share = joint.swing * reciprocal(root(square));
-        at[0] = share * at[0];
-        at[1] = share * at[1];
-      }
     }
-    Number& last = at[joint.kind == Kind::hinge ? 0 : 2];
-    if (value_of(last) < joint.low) last = Number(joint.low);
-    if (value_of(last) > joint.high) last = Number(joint.high);
+    bound(joint, at);
   }
 }
 
@@ -439,17 +447,7 @@ void LimitedDescent<Number>::move() noexcept {
       at[0] = at[1] = at[2] = Number(0);
       continue;
     }
-    if (joint.kind == Kind::socket) {
-      const Number square = at[0] * at[0] + at[1] * at[1];
-      if (value_of(square) > joint.swing * joint.swing) {
-        const Number inside = joint.swing * reciprocal(root(square));
-        at[0] = inside * at[0];
-        at[1] = inside * at[1];
-      }
-    }
-    Number& last = at[joint.kind == Kind::hinge ? 0 : 2];
-    if (value_of(last) < joint.low) last = Number(joint.low);
-    if (value_of(last) > joint.high) last = Number(joint.high);
+    bound(joint, at);
   }
   place();
 }

@@ -78,6 +78,7 @@ class LimitedDescent {
     bool is_stopped;  // by its limit, in this step
   };
 
+  static void bound(const Joint& joint, Number* at) noexcept;
   void to_shape(State& state) const noexcept;
   void along_rim(Way& way) const noexcept;
   Way& add(std::size_t i, std::size_t k) noexcept;
